@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+
+#include "filter/estimate.hpp"
+
+namespace sketchloc {
+
+/// What one step of the localizer did; one per scan, plain values.
+struct StepReport {
+  std::size_t step = 0;  ///< index of the scan in the run
+  double time_s = 0.0;
+  Estimate estimate;
+  bool updated = false;         ///< false: the motion gate kept the scan out
+  double log_likelihood = 0.0;  ///< mean over particles of the tempered beam score
+  double effective_particles = 0.0;
+  std::size_t particles = 0;
+  bool resampled = false;
+  double injected_share = 0.0;  ///< particles replaced by recovery, in [0, 1]
+};
+
+}  // namespace sketchloc
