@@ -1,0 +1,142 @@
+#include "registration/matched_odometry.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <optional>
+#include <utility>
+
+#include "motion/validate.hpp"
+
+namespace sketchloc {
+namespace {
+
+Eigen::Vector3d wheel_sigma(const Se2& raw_increment, const WheelPrior& wheels) {
+  const Eigen::Vector3d floor(wheels.floor_m, wheels.floor_m, wheels.floor_rad);
+  return (increment_sigma(raw_increment, wheels.noise).array().square() + floor.array().square())
+      .sqrt();
+}
+
+/// Whether the prior weighs more than the scan in some direction.
+bool prior_decides_somewhere(const Eigen::Matrix3d& scan_information,
+                             const Eigen::Vector3d& prior_sigma) {
+  const Eigen::Matrix3d scan_by_prior =
+      prior_sigma.asDiagonal() * scan_information * prior_sigma.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scan_by_prior,
+                                                              Eigen::EigenvaluesOnly);
+  return solver.eigenvalues().minCoeff() < 1.0;
+}
+
+}  // namespace
+
+void validate(const MatchedOdometryParams& params) {
+  validate(params.surface);
+  validate(params.search);
+  validate(params.match);
+  validate(params.wheels.noise);
+  require_above("floor_m", params.wheels.floor_m, 0.0);
+  require_above("floor_rad", params.wheels.floor_rad, 0.0);
+  require_above("search_radius_m", params.search_radius_m, 0.0);
+  require_above("keyframe_way_m", params.keyframe_way_m, 0.0);
+  require_above("keyframe_turn_rad", params.keyframe_turn_rad, 0.0);
+  require_at_least("max_keyframes", params.max_keyframes, 1.0);
+  require_above("submap_radius_m", params.submap_radius_m, 0.0);
+}
+
+MatchedOdometry::MatchedOdometry(const MatchedOdometryParams& params)
+    : params_((validate(params), params)),
+      search_(params.search),
+      submap_(params.search_radius_m) {}
+
+MatchedStep MatchedOdometry::step(const Scan& scan, const Se2& raw_odom_from_robot) {
+  std::vector<SurfacePoint> points_in_robot = surface_points_in_robot(scan, params_.surface);
+  MatchedStep result;
+  if (started_) {
+    const Se2 raw_increment = odometry_increment(raw_odom_from_robot_, raw_odom_from_robot);
+    result = match(points_in_robot, raw_increment);
+  } else {
+    result.odom_from_robot = raw_odom_from_robot;
+    started_ = true;
+  }
+  raw_odom_from_robot_ = raw_odom_from_robot;
+  odom_from_robot_ = result.odom_from_robot;
+  if (keyframe_is_due() && !points_in_robot.empty()) {
+    remember(std::move(points_in_robot));
+  }
+  return result;
+}
+
+MatchedStep MatchedOdometry::match(const std::vector<SurfacePoint>& points_in_robot,
+                                   const Se2& raw_increment) {
+  const Eigen::Vector3d sigma = wheel_sigma(raw_increment, params_.wheels);
+  const Eigen::Matrix3d prior_information = sigma.array().square().inverse().matrix().asDiagonal();
+  const PosePrior prior{odom_from_robot_ * raw_increment, prior_information};
+
+  std::optional<ScanMatch> best;
+  for (const PoseCandidate& candidate :
+       search_.search(points_in_robot, submap_grid_, prior.odom_from_robot, sigma)) {
+    const ScanMatch match =
+        match_scan(points_in_robot, submap_, prior, candidate.odom_from_robot, params_.match);
+    if (!best || match.cost < best->cost) {
+      best = match;
+    }
+  }
+
+  MatchedStep step{.status = MatchedStep::Status::TooFewPoints,
+                   .odom_from_robot = prior.odom_from_robot,
+                   .previous_from_robot = raw_increment,
+                   .covariance = sigma.array().square().matrix().asDiagonal()};
+  if (!best || best->status == ScanMatch::Status::TooFewPoints) {
+    return step;
+  }
+  step.matched_share = best->matched_share;
+  if (best->matched_share < params_.match.min_matched_share) {
+    step.status = MatchedStep::Status::Rejected;
+    return step;
+  }
+  step.status = prior_decides_somewhere(best->scan_information, sigma)
+                    ? MatchedStep::Status::Degenerate
+                    : MatchedStep::Status::Matched;
+  step.odom_from_robot = best->odom_from_robot;
+  step.previous_from_robot = odom_from_robot_.inverse() * best->odom_from_robot;
+  step.covariance =
+      (best->scan_information + prior_information).ldlt().solve(Eigen::Matrix3d::Identity());
+  return step;
+}
+
+bool MatchedOdometry::keyframe_is_due() const {
+  if (keyframes_.empty()) {
+    return true;
+  }
+  const Se2 keyframe_from_robot = keyframes_.back().odom_from_robot.inverse() * odom_from_robot_;
+  return keyframe_from_robot.translation().norm() > params_.keyframe_way_m ||
+         std::abs(keyframe_from_robot.yaw_rad()) > params_.keyframe_turn_rad;
+}
+
+void MatchedOdometry::remember(std::vector<SurfacePoint> points_in_robot) {
+  keyframes_.push_back({odom_from_robot_, std::move(points_in_robot)});
+  const auto is_far = [&](const Keyframe& keyframe) {
+    const Eigen::Vector2d way =
+        keyframe.odom_from_robot.translation() - odom_from_robot_.translation();
+    return way.norm() > params_.submap_radius_m;
+  };
+  while (keyframes_.size() > static_cast<std::size_t>(params_.max_keyframes) ||
+         is_far(keyframes_.front())) {
+    keyframes_.pop_front();
+  }
+  rebuild_submap();
+}
+
+void MatchedOdometry::rebuild_submap() {
+  submap_points_in_odom_.clear();
+  for (const Keyframe& keyframe : keyframes_) {
+    const Eigen::Matrix2d rotation = keyframe.odom_from_robot.rotation_matrix();
+    for (const SurfacePoint& surface : keyframe.points_in_robot) {
+      submap_points_in_odom_.push_back(
+          {keyframe.odom_from_robot * surface.point, rotation * surface.normal});
+    }
+  }
+  submap_.refill(submap_points_in_odom_);
+  submap_grid_.refill(submap_points_in_odom_, params_.search);
+}
+
+}  // namespace sketchloc

@@ -1,0 +1,91 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <vector>
+
+#include "datasets/scan.hpp"
+#include "motion/odometry.hpp"
+#include "registration/pose_search.hpp"
+#include "registration/scan_matcher.hpp"
+#include "registration/surface_map.hpp"
+#include "registration/surface_points.hpp"
+
+namespace sketchloc {
+
+/// What a raw wheel odometry increment is worth, wide enough for poor wheels and late stamps.
+struct WheelPrior {
+  OdometryNoise noise{.slip_m_per_m = 0.1,
+                      .slip_m_per_rad = 0.06,
+                      .turn_rad_per_m = 0.06,
+                      .turn_rad_per_rad = 0.15};
+  double floor_m = 0.02;     ///< 1-sigma of an increment without motion, > 0
+  double floor_rad = 0.015;  ///< the same for the heading, > 0
+};
+
+struct MatchedOdometryParams {
+  SurfaceParams surface;
+  PoseSearchParams search;
+  ScanMatchParams match;
+  WheelPrior wheels;
+  double search_radius_m = 0.3;    ///< reach of the nearest-neighbour look-up, > 0
+  double keyframe_way_m = 0.3;     ///< a scan this far from the last keyframe is a new one, > 0
+  double keyframe_turn_rad = 0.2;  ///< or turned by this much, > 0
+  int max_keyframes = 20;          ///< kept in the submap, >= 1
+  double submap_radius_m = 10.0;   ///< keyframes farther from the robot are dropped, > 0
+};
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const MatchedOdometryParams& params);
+
+/// One scan's worth of refined odometry.
+struct MatchedStep {
+  enum class Status {
+    First,         ///< nothing to match with yet
+    Matched,       ///< the scan decided in all directions
+    Degenerate,    ///< the wheels decided in at least one direction (a long corridor)
+    TooFewPoints,  ///< the wheels decided all: too little to see
+    Rejected       ///< the wheels decided all: the scan does not fit what was seen before
+  };
+  Status status = Status::First;
+  Se2 odom_from_robot;      ///< refined; starts at the first raw pose, drifts slowly
+  Se2 previous_from_robot;  ///< refined increment since the step before
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  ///< of the increment's error d,
+                                ///< truth = increment * exp(d): (x m, y m, yaw rad)
+  double matched_share = 0.0;   ///< of the scan's points that lie on the submap, in [0, 1]
+};
+
+/// Refines wheel odometry by matching each scan with a submap of the last keyframes; online and
+/// causal: a step depends on the steps before it only. Deterministic.
+class MatchedOdometry {
+ public:
+  /// Throws std::invalid_argument if a parameter is out of range.
+  explicit MatchedOdometry(const MatchedOdometryParams& params = {});
+
+  /// Takes the next scan with the raw odometry at its instant.
+  MatchedStep step(const Scan& scan, const Se2& raw_odom_from_robot);
+
+ private:
+  struct Keyframe {
+    Se2 odom_from_robot;
+    std::vector<SurfacePoint> points_in_robot;
+  };
+
+  MatchedStep match(const std::vector<SurfacePoint>& points_in_robot, const Se2& raw_increment);
+  void remember(std::vector<SurfacePoint> points_in_robot);
+  bool keyframe_is_due() const;
+  void rebuild_submap();
+
+  MatchedOdometryParams params_;
+  PoseSearch search_;
+  bool started_ = false;
+  Se2 raw_odom_from_robot_;
+  Se2 odom_from_robot_;
+  std::deque<Keyframe> keyframes_;
+  std::vector<SurfacePoint> submap_points_in_odom_;
+  SurfaceMap submap_;
+  SurfaceGrid submap_grid_;
+};
+
+}  // namespace sketchloc

@@ -1,0 +1,181 @@
+#include "registration/pose_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "motion/validate.hpp"
+
+namespace sketchloc {
+namespace {
+
+constexpr double kFullScore = 255.0;
+
+struct Stamp {
+  int radius = 0;
+  std::vector<std::uint8_t> values;  // (2 radius + 1)^2, row by row
+};
+
+Stamp gaussian_stamp(double sigma_cells) {
+  Stamp stamp{.radius = static_cast<int>(std::ceil(2.5 * sigma_cells)), .values = {}};
+  for (int row = -stamp.radius; row <= stamp.radius; ++row) {
+    for (int column = -stamp.radius; column <= stamp.radius; ++column) {
+      const double square = (row * row + column * column) / (sigma_cells * sigma_cells);
+      stamp.values.push_back(
+          static_cast<std::uint8_t>(std::lround(kFullScore * std::exp(-0.5 * square))));
+    }
+  }
+  return stamp;
+}
+
+/// The brightest of what is there and the stamp; the caller keeps the stamp inside the grid.
+void press(const Stamp& stamp, const Cell& centre, Grid<std::uint8_t>& grid) {
+  const auto width = static_cast<std::size_t>(2 * stamp.radius + 1);
+  for (std::size_t row = 0; row < width; ++row) {
+    const auto cells = grid.row(centre.row - stamp.radius + static_cast<int>(row))
+                           .subspan(static_cast<std::size_t>(centre.column - stamp.radius), width);
+    for (std::size_t column = 0; column < width; ++column) {
+      cells[column] = std::max(cells[column], stamp.values[row * width + column]);
+    }
+  }
+}
+
+int half_window_cells(double half_width_m, const PoseSearchParams& params) {
+  const double clamped_m = std::clamp(half_width_m, params.min_shift_m, params.max_shift_m);
+  return static_cast<int>(std::ceil(clamped_m / params.cell_m));
+}
+
+/// Cost of a squared Mahalanobis distance under a Cauchy-like density: wheels slip and stamps come
+/// late more often than a Gaussian allows.
+double heavy_tail(double square) { return std::log1p(0.5 * square); }
+
+/// Keeps the local maxima over the heading, best first.
+std::vector<PoseCandidate> peaks(std::span<const PoseCandidate> by_heading, int max_candidates) {
+  std::vector<PoseCandidate> best;
+  for (std::size_t i = 0; i < by_heading.size(); ++i) {
+    const double score = by_heading[i].score;
+    const bool beats_left = i == 0 || score > by_heading[i - 1].score;
+    const bool beats_right = i + 1 == by_heading.size() || score >= by_heading[i + 1].score;
+    if (beats_left && beats_right) {
+      best.push_back(by_heading[i]);
+    }
+  }
+  std::stable_sort(best.begin(), best.end(), [](const PoseCandidate& a, const PoseCandidate& b) {
+    return a.score > b.score;
+  });
+  best.resize(std::min(best.size(), static_cast<std::size_t>(max_candidates)));
+  return best;
+}
+
+}  // namespace
+
+void validate(const PoseSearchParams& params) {
+  require_above("cell_m", params.cell_m, 0.0);
+  require_above("heading_step_rad", params.heading_step_rad, 0.0);
+  require_above("sigmas", params.sigmas, 0.0);
+  require_above("min_shift_m", params.min_shift_m, 0.0);
+  require_at_least("max_shift_m", params.max_shift_m, params.min_shift_m);
+  require_above("min_turn_rad", params.min_turn_rad, 0.0);
+  require_in_range("max_turn_rad", params.max_turn_rad, params.min_turn_rad, std::numbers::pi);
+  require_above("blur_m", params.blur_m, 0.0);
+  require_above("point_weight", params.point_weight, 0.0);
+  require_at_least("max_candidates", params.max_candidates, 1.0);
+}
+
+void SurfaceGrid::refill(std::span<const SurfacePoint> points_in_odom,
+                         const PoseSearchParams& params) {
+  if (points_in_odom.empty()) {
+    grid_ = {};
+    return;
+  }
+  Eigen::Vector2d low = points_in_odom.front().point;
+  Eigen::Vector2d high = low;
+  for (const SurfacePoint& surface : points_in_odom) {
+    low = low.cwiseMin(surface.point);
+    high = high.cwiseMax(surface.point);
+  }
+  const Stamp stamp = gaussian_stamp(params.blur_m / params.cell_m);
+  // A point at most one window outside of the surfaces may be shifted by one window more.
+  margin_cells_ = half_window_cells(params.max_shift_m, params) + stamp.radius + 1;
+  const int border = 2 * margin_cells_;
+  low_corner_ = low - Eigen::Vector2d::Constant(border * params.cell_m);
+  const Eigen::Vector2d size = (high - low) / params.cell_m;
+  grid_ = Grid<std::uint8_t>(static_cast<int>(size.x()) + 1 + 2 * border,
+                             static_cast<int>(size.y()) + 1 + 2 * border);
+  for (const SurfacePoint& surface : points_in_odom) {
+    press(stamp, cell_at((surface.point - low_corner_) / params.cell_m), grid_);
+  }
+}
+
+PoseSearch::PoseSearch(const PoseSearchParams& params) : params_(params) { validate(params); }
+
+void PoseSearch::add_up(std::span<const SurfacePoint> points_in_robot, const SurfaceGrid& surfaces,
+                        const Se2& odom_from_robot, int half_window) {
+  const int width = 2 * half_window + 1;
+  const Grid<std::uint8_t>& grid = surfaces.grid_;
+  const int border = surfaces.margin_cells_;
+  sums_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(width), 0);
+  for (const SurfacePoint& surface : points_in_robot) {
+    const Eigen::Vector2d point_in_odom = odom_from_robot * surface.point;
+    const Cell cell = cell_at((point_in_odom - surfaces.low_corner_) / params_.cell_m);
+    if (cell.column < border || cell.row < border || cell.column >= grid.width() - border ||
+        cell.row >= grid.height() - border) {
+      continue;  // far from all surfaces, wherever it is shifted
+    }
+    std::uint32_t* sum = sums_.data();
+    for (int shift = -half_window; shift <= half_window; ++shift, sum += width) {
+      const std::uint8_t* cells = grid.row(cell.row + shift).data() + (cell.column - half_window);
+      for (int i = 0; i < width; ++i) {
+        sum[i] += cells[i];
+      }
+    }
+  }
+}
+
+PoseCandidate PoseSearch::best_shift(std::span<const SurfacePoint> points_in_robot,
+                                     const SurfaceGrid& surfaces, const Se2& odom_from_robot,
+                                     const Eigen::Vector2d& prior_sigma_m) {
+  const int half_window = half_window_cells(params_.sigmas * prior_sigma_m.maxCoeff(), params_);
+  add_up(points_in_robot, surfaces, odom_from_robot, half_window);
+  const Eigen::Matrix2d robot_from_odom_rotation = odom_from_robot.rotation_matrix().transpose();
+  PoseCandidate best{odom_from_robot, -std::numeric_limits<double>::infinity()};
+  const std::uint32_t* sum = sums_.data();
+  for (int row = -half_window; row <= half_window; ++row) {
+    for (int column = -half_window; column <= half_window; ++column, ++sum) {
+      const Eigen::Vector2d shift_in_odom = Eigen::Vector2d(column, row) * params_.cell_m;
+      const Eigen::Vector2d shift_in_robot = robot_from_odom_rotation * shift_in_odom;
+      const double prior = -heavy_tail(shift_in_robot.cwiseQuotient(prior_sigma_m).squaredNorm());
+      const double score = prior + params_.point_weight * *sum / kFullScore;
+      if (score > best.score) {
+        const Eigen::Vector2d position = odom_from_robot.translation() + shift_in_odom;
+        best = {Se2::from_xy_yaw(position.x(), position.y(), odom_from_robot.yaw_rad()), score};
+      }
+    }
+  }
+  return best;
+}
+
+std::vector<PoseCandidate> PoseSearch::search(std::span<const SurfacePoint> points_in_robot,
+                                              const SurfaceGrid& surfaces,
+                                              const Se2& prior_odom_from_robot,
+                                              const Eigen::Vector3d& prior_sigma) {
+  if (surfaces.empty() || points_in_robot.empty()) {
+    return {};
+  }
+  const double half_turn_rad =
+      std::clamp(params_.sigmas * prior_sigma.z(), params_.min_turn_rad, params_.max_turn_rad);
+  const int half_steps = static_cast<int>(std::ceil(half_turn_rad / params_.heading_step_rad));
+  std::vector<PoseCandidate> by_heading;
+  by_heading.reserve(static_cast<std::size_t>(2 * half_steps + 1));
+  for (int step = -half_steps; step <= half_steps; ++step) {
+    const double turn_rad = step * params_.heading_step_rad;
+    const Se2 turned = prior_odom_from_robot * Se2::from_xy_yaw(0.0, 0.0, turn_rad);
+    PoseCandidate candidate = best_shift(points_in_robot, surfaces, turned, prior_sigma.head<2>());
+    candidate.score -= heavy_tail(std::pow(turn_rad / prior_sigma.z(), 2));
+    by_heading.push_back(candidate);
+  }
+  return peaks(by_heading, params_.max_candidates);
+}
+
+}  // namespace sketchloc

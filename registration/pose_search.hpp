@@ -1,0 +1,75 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "datasets/grid.hpp"
+#include "motion/se2.hpp"
+#include "registration/surface_points.hpp"
+
+namespace sketchloc {
+
+/// Exhaustive search for the heading and the shift of a scan. [Olson09]
+struct PoseSearchParams {
+  double cell_m = 0.1;             ///< shift step and cell of the look-up grid, > 0
+  double heading_step_rad = 0.02;  ///< > 0
+  double min_shift_m = 0.4;        ///< narrowest half window, > 0
+  double max_shift_m = 1.0;        ///< widest half window, at least the narrowest
+  double min_turn_rad = 0.5;       ///< narrowest half window, > 0
+  double max_turn_rad = 0.8;       ///< widest half window, in [min_turn_rad, pi]
+  double sigmas = 3.0;             ///< half window in sigmas of the prior between those, > 0
+  double blur_m = 0.1;             ///< 1-sigma width of a surface in the grid, > 0
+  double point_weight = 0.15;      ///< log-likelihood of one point on a surface, > 0; well below
+                                   ///< its own because neighbours tell the same
+  int max_candidates = 4;          ///< >= 1
+};
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const PoseSearchParams& params);
+
+/// A pose with the log-posterior that the search gave it.
+struct PoseCandidate {
+  Se2 odom_from_robot;
+  double score = 0.0;
+};
+
+/// The surfaces of a submap, blurred: how well a point lies on one, 0..255.
+class SurfaceGrid {
+ public:
+  /// Margin: room around the points, at least twice the half window of the searches to come.
+  void refill(std::span<const SurfacePoint> points_in_odom, const PoseSearchParams& params);
+
+  bool empty() const { return grid_.empty(); }
+
+ private:
+  friend class PoseSearch;
+  Eigen::Vector2d low_corner_ = Eigen::Vector2d::Zero();  // of the grid, in odom
+  int margin_cells_ = 0;
+  Grid<std::uint8_t> grid_;
+};
+
+/// Scores every heading and shift around a prior pose; keeps its buffers between searches.
+class PoseSearch {
+ public:
+  explicit PoseSearch(const PoseSearchParams& params = {});
+
+  /// The best local maxima over the heading, best first; at least one unless the grid or the scan
+  /// is empty. Sigma: (x m, y m, yaw rad) of the prior in the robot frame.
+  std::vector<PoseCandidate> search(std::span<const SurfacePoint> points_in_robot,
+                                    const SurfaceGrid& surfaces, const Se2& prior_odom_from_robot,
+                                    const Eigen::Vector3d& prior_sigma);
+
+ private:
+  PoseCandidate best_shift(std::span<const SurfacePoint> points_in_robot,
+                           const SurfaceGrid& surfaces, const Se2& odom_from_robot,
+                           const Eigen::Vector2d& prior_sigma_m);
+  void add_up(std::span<const SurfacePoint> points_in_robot, const SurfaceGrid& surfaces,
+              const Se2& odom_from_robot, int half_window);
+
+  PoseSearchParams params_;
+  std::vector<std::uint32_t> sums_;  // one per shift, row by row
+};
+
+}  // namespace sketchloc
