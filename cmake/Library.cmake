@@ -38,3 +38,11 @@ function(sketchloc_test folder)
   gtest_discover_tests(${target} TEST_FILTER "*EndToEnd*" PROPERTIES LABELS end_to_end
                        DISCOVERY_TIMEOUT 60)
 endfunction()
+
+# sketchloc_vector_sources(<sources...>): kernels written with Highway. They give the same bits on
+# every processor, so no fused multiply-add behind our back; HWY_WANT_AVX3_DL asks for the
+# instruction set that has 128-byte table look-ups (VBMI).
+function(sketchloc_vector_sources)
+  set_source_files_properties(${ARGV} PROPERTIES COMPILE_OPTIONS -ffp-contract=off
+                                                 COMPILE_DEFINITIONS HWY_WANT_AVX3_DL)
+endfunction()

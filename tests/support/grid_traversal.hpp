@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "datasets/grid.hpp"
+
+namespace sketchloc::testing {
+
+/// Oracle and baseline of every ray kernel: walks from cell to cell in double [Amanatides87] until
+/// the first occupied one and gives the distance at which the ray enters it (0 from an occupied
+/// cell, `max_range` where nothing is hit). The origin must be inside the grid.
+double traverse(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origin,
+                double heading_rad, double max_range);
+
+}  // namespace sketchloc::testing
