@@ -1,0 +1,115 @@
+#include "datasets/io/detail/csv_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "datasets/io/detail/line_reader.hpp"
+#include "motion/check.hpp"
+
+namespace sketchloc::detail {
+namespace {
+
+constexpr const char* kWhatToDo = "correct the value";
+
+std::vector<std::string_view> split(std::string_view line, const Place& place) {
+  Columns columns = Columns::comma_separated(line, place);
+  std::vector<std::string_view> values;
+  while (!columns.at_end()) {
+    values.push_back(columns.text("value"));
+  }
+  return values;
+}
+
+std::vector<std::string> read_header(LineReader& lines,
+                                     std::initializer_list<std::string_view> columns) {
+  const std::optional<std::string_view> line = lines.next();
+  if (!line || line->empty()) {
+    fail(
+        {.file = lines.place().file, .line = 1},
+        "header: expected a line with the names of the columns, found nothing; is the file empty?");
+  }
+  const std::vector<std::string_view> names = split(*line, lines.place());
+  for (const std::string_view column : columns) {
+    if (std::ranges::count(names, column) != 1) {
+      fail_expected(lines.place(), "header", "one column " + quoted(column), quoted(*line),
+                    "the columns are listed in docs/formats.md");
+    }
+  }
+  return {names.begin(), names.end()};
+}
+
+}  // namespace
+
+std::string_view CsvRow::value(std::string_view column) const {
+  const auto found = std::ranges::find(header_, column);
+  check(found != header_.end(), "a column that was not asked for");
+  return values_[static_cast<std::size_t>(found - header_.begin())];
+}
+
+double CsvRow::finite(std::string_view column) const {
+  const std::optional<double> number = parse_number(value(column));
+  if (!number || !std::isfinite(*number)) {
+    fail_expected(*place_, column, "a finite number", quoted(value(column)), kWhatToDo);
+  }
+  return *number;
+}
+
+double CsvRow::above_zero(std::string_view column) const {
+  const double number = finite(column);
+  if (!(number > 0.0)) {
+    fail_expected(*place_, column, "a number above 0", quoted(value(column)), kWhatToDo);
+  }
+  return number;
+}
+
+double CsvRow::at_least_zero(std::string_view column) const {
+  const double number = finite(column);
+  if (!(number >= 0.0)) {
+    fail_expected(*place_, column, "a number of at least 0", quoted(value(column)), kWhatToDo);
+  }
+  return number;
+}
+
+std::size_t CsvRow::index(std::string_view column) const {
+  const std::optional<std::int64_t> number = parse_integer(value(column));
+  if (!number || *number < 0) {
+    fail_expected(*place_, column, "an integer from 0 on", quoted(value(column)), kWhatToDo);
+  }
+  return static_cast<std::size_t>(*number);
+}
+
+bool CsvRow::flag(std::string_view column) const {
+  const std::string_view text = value(column);
+  if (text != "0" && text != "1") {
+    fail_expected(*place_, column, "0 or 1", quoted(text), kWhatToDo);
+  }
+  return text == "1";
+}
+
+void for_each_csv_row(const std::filesystem::path& csv,
+                      std::initializer_list<std::string_view> columns,
+                      const std::function<void(const CsvRow&)>& take) {
+  LineReader lines(csv);
+  const std::vector<std::string> header = read_header(lines, columns);
+  std::size_t rows = 0;
+  while (const std::optional<std::string_view> line = lines.next()) {
+    if (line->empty()) {
+      continue;
+    }
+    const std::vector<std::string_view> values = split(*line, lines.place());
+    if (values.size() != header.size()) {
+      fail_expected(lines.place(), "columns", std::to_string(header.size()) + " as in the header",
+                    std::to_string(values.size()), "complete the line or remove it");
+    }
+    take(CsvRow(header, values, lines.place()));
+    ++rows;
+  }
+  if (lines.cut_off()) {
+    fail(lines.place(), "the gzip stream ends early, after this line; copy the file again");
+  }
+  if (rows == 0) {
+    fail(lines.place(), "rows: expected at least one after the header, found none");
+  }
+}
+
+}  // namespace sketchloc::detail

@@ -1,0 +1,75 @@
+#include "datasets/io/reference_io.hpp"
+
+#include "datasets/io/detail/csv_table.hpp"
+#include "motion/check.hpp"
+
+namespace sketchloc {
+namespace {
+
+using detail::CsvRow;
+
+/// Image: origin at the centre of the top left pixel, y down, heading clockwise.
+Sim2 sketch_from_robot(double x_image_px, double y_image_px, double heading_image_rad,
+                       double scale_px_per_m, int sketch_height_px) {
+  return Sim2::from_xy_yaw_scale(x_image_px + 0.5, sketch_height_px - 0.5 - y_image_px,
+                                 -heading_image_rad, scale_px_per_m);
+}
+
+Sim2 sketch_from_robot(const CsvRow& row, std::string_view heading_column, int sketch_height_px) {
+  return sketch_from_robot(row.finite("sketch_x_px"), row.finite("sketch_y_px"),
+                           row.finite(heading_column), row.above_zero("local_scale_px_per_m"),
+                           sketch_height_px);
+}
+
+template <typename Pose>
+void append_in_order(std::vector<Pose>& poses, Pose pose, const CsvRow& row) {
+  if (!poses.empty() && pose.step <= poses.back().step) {
+    detail::fail_expected(row.place(), "t_index", "more than " + std::to_string(poses.back().step),
+                          std::to_string(pose.step), "put the rows in order, one for each scan");
+  }
+  poses.push_back(std::move(pose));
+}
+
+}  // namespace
+
+Reference read_reference(const std::filesystem::path& csv, int sketch_height_px) {
+  check(sketch_height_px > 0, "a drawing has a height");
+  Reference reference;
+  detail::for_each_csv_row(
+      csv,
+      {"t_index", "t", "sketch_x_px", "sketch_y_px", "heading_rigid_rad", "local_scale_px_per_m",
+       "loo_uncertainty_m", "in_image", "in_hull"},
+      [&](const CsvRow& row) {
+        const bool in_image = row.flag("in_image");
+        const bool in_hull = row.flag("in_hull");
+        ReferencePose pose{
+            .step = row.index("t_index"),
+            .time_s = row.finite("t"),
+            .sketch_from_robot = sketch_from_robot(row, "heading_rigid_rad", sketch_height_px),
+            .uncertainty_m = row.at_least_zero("loo_uncertainty_m"),
+            .scored = in_image && in_hull};
+        append_in_order(reference.poses, std::move(pose), row);
+      });
+  return reference;
+}
+
+std::vector<AlternativePose> read_alternative(const std::filesystem::path& csv,
+                                              int sketch_height_px) {
+  check(sketch_height_px > 0, "a drawing has a height");
+  std::vector<AlternativePose> poses;
+  detail::for_each_csv_row(
+      csv,
+      {"t_index", "t", "sketch_x_px", "sketch_y_px", "heading_rad", "local_scale_px_per_m",
+       "distance_to_A_px"},
+      [&](const CsvRow& row) {
+        AlternativePose pose{
+            .step = row.index("t_index"),
+            .time_s = row.finite("t"),
+            .sketch_from_robot = sketch_from_robot(row, "heading_rad", sketch_height_px),
+            .distance_px = row.at_least_zero("distance_to_A_px")};
+        append_in_order(poses, std::move(pose), row);
+      });
+  return poses;
+}
+
+}  // namespace sketchloc
