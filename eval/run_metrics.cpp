@@ -1,0 +1,136 @@
+#include "eval/run_metrics.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "motion/angles.hpp"
+
+namespace sketchloc {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const std::optional<ErrorSummary>& summary) {
+  if (!summary) {
+    return nullptr;
+  }
+  return {{"mean", summary->mean},
+          {"median", summary->median},
+          {"rmse", summary->rmse},
+          {"p90", summary->p90},
+          {"max", summary->max}};
+}
+
+Json json_in_degrees(const std::optional<ErrorSummary>& radians) {
+  return json_of(radians ? std::optional(scaled(*radians, deg_from_rad(1.0))) : std::nullopt);
+}
+
+Json json_of(const std::optional<NeesSummary>& nees) {
+  if (!nees) {
+    return nullptr;
+  }
+  return {{"mean", nees->mean},
+          {"degrees_of_freedom", nees->degrees},
+          {"mean_band_95", {nees->mean_band.low, nees->mean_band.high}},
+          {"share_inside_95", nees->share_inside},
+          {"steps", nees->count}};
+}
+
+template <typename T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+void add_errors(Json& json, const SketchErrors& errors) {
+  json["scored_poses"] = errors.scored;
+  json["share_within_1_m"] = errors.share_within_1_m;
+  json["share_within_2_m"] = errors.share_within_2_m;
+  json["share_within_reference_2_sigma"] = errors.share_within_uncertainty;
+  json["translation_error_m"] = json_of(errors.translation_m);
+  json["translation_error_px"] = json_of(errors.translation_px);
+  json["heading_error_deg"] = json_in_degrees(errors.heading_rad);
+  json["median_scale_ratio"] = errors.median_scale_ratio;
+  json["lost_at_end"] = errors.lost_at_end;
+  json["first_loss_s"] = or_null(errors.first_loss_s);
+  json["position_nees"] = json_of(errors.position_nees);
+}
+
+void add_missing_errors(Json& json) {
+  json["scored_poses"] = 0;
+  for (const char* key : {"share_within_1_m", "share_within_2_m", "translation_error_m",
+                          "heading_error_deg", "lost_at_end", "first_loss_s"}) {
+    json[key] = nullptr;
+  }
+}
+
+Json json_of(const RelativeErrors& relative) {
+  Json json;
+  if (const auto* by_frames = std::get_if<FrameDelta>(&relative.params.delta)) {
+    json["delta_frames"] = by_frames->frames;
+  } else {
+    json["delta_m"] = std::get<PathDelta>(relative.params.delta).path_m;
+  }
+  json["pairs"] = relative.errors.translation_m ? relative.errors.translation_m->count : 0;
+  json["translation_m"] = json_of(relative.errors.translation_m);
+  json["rotation_deg"] = json_in_degrees(relative.errors.rotation_rad);
+  return json;
+}
+
+PoseErrors absolute_errors_aligned(const MatchedPoses& poses, Alignment alignment) {
+  const std::optional<MatchedPoses> aligned = align(poses, alignment);
+  return aligned ? absolute_errors(*aligned) : PoseErrors{};
+}
+
+constexpr int kIndent = 2;
+
+}  // namespace
+
+std::string to_json(const RunMetrics& metrics) {
+  Json json;
+  json["poses"] = metrics.poses;
+  if (metrics.errors && metrics.errors->scored > 0) {
+    add_errors(json, *metrics.errors);
+  } else {
+    add_missing_errors(json);
+  }
+  json["seconds"] = metrics.cost.seconds;
+  json["peak_memory_mb"] = metrics.cost.peak_memory_mb;
+  return json.dump(kIndent) + "\n";
+}
+
+TrajectoryMetrics measure_trajectory(const MetricTrajectory& reference,
+                                     const MetricTrajectory& estimate, double max_gap_s,
+                                     const std::vector<RelativeErrorParams>& relative) {
+  const MatchedPoses matched = match_poses(reference, estimate, max_gap_s);
+  TrajectoryMetrics metrics{.poses = estimate.size(),
+                            .matched = matched.world_from_robot.size(),
+                            .unaligned = absolute_errors_aligned(matched, Alignment::None),
+                            .first_pose = absolute_errors_aligned(matched, Alignment::FirstPose),
+                            .se2 = absolute_errors_aligned(matched, Alignment::Se2),
+                            .sim2 = absolute_errors_aligned(matched, Alignment::Sim2),
+                            .relative = {}};
+  for (const RelativeErrorParams& params : relative) {
+    metrics.relative.push_back({params, relative_errors(matched, params)});
+  }
+  return metrics;
+}
+
+std::string to_json(const TrajectoryMetrics& metrics) {
+  Json json;
+  json["poses"] = metrics.poses;
+  json["matched_poses"] = metrics.matched;
+  json["ate_m"] = {{"unaligned", json_of(metrics.unaligned.translation_m)},
+                   {"first_pose", json_of(metrics.first_pose.translation_m)},
+                   {"se2", json_of(metrics.se2.translation_m)},
+                   {"sim2", json_of(metrics.sim2.translation_m)}};
+  json["rotation_error_deg"] = {{"unaligned", json_in_degrees(metrics.unaligned.rotation_rad)},
+                                {"first_pose", json_in_degrees(metrics.first_pose.rotation_rad)},
+                                {"se2", json_in_degrees(metrics.se2.rotation_rad)},
+                                {"sim2", json_in_degrees(metrics.sim2.rotation_rad)}};
+  json["rpe"] = Json::array();
+  for (const RelativeErrors& relative : metrics.relative) {
+    json["rpe"].push_back(json_of(relative));
+  }
+  return json.dump(kIndent) + "\n";
+}
+
+}  // namespace sketchloc

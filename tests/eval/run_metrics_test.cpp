@@ -1,0 +1,84 @@
+#include "eval/run_metrics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace sketchloc {
+namespace {
+
+using nlohmann::json;
+
+SketchErrors some_errors() {
+  const ErrorSummary summary{
+      .mean = 1.0, .median = 0.5, .rmse = 1.5, .p90 = 2.0, .max = 3.0, .count = 4};
+  SketchErrors errors;
+  errors.scored = 4;
+  errors.share_within_1_m = 0.75;
+  errors.share_within_2_m = 1.0;
+  errors.translation_m = errors.translation_px = errors.heading_rad = summary;
+  return errors;
+}
+
+void expect_five_numbers(const json& object) {
+  for (const char* key : {"mean", "median", "rmse", "p90", "max"}) {
+    EXPECT_TRUE(object.at(key).is_number()) << key;
+  }
+}
+
+TEST(RunMetricsJson, HasTheKeysThatScriptsRead) {
+  const RunMetrics metrics{
+      .poses = 9, .errors = some_errors(), .cost = {.seconds = 2.5, .peak_memory_mb = 40.0}};
+  const json parsed = json::parse(to_json(metrics));
+  EXPECT_DOUBLE_EQ(parsed.at("share_within_1_m"), 0.75);
+  EXPECT_DOUBLE_EQ(parsed.at("share_within_2_m"), 1.0);
+  expect_five_numbers(parsed.at("translation_error_m"));
+  expect_five_numbers(parsed.at("heading_error_deg"));
+  EXPECT_NEAR(parsed.at("heading_error_deg").at("median"), 28.64788975654116, 1e-12);
+  EXPECT_EQ(parsed.at("lost_at_end"), false);
+  EXPECT_TRUE(parsed.at("first_loss_s").is_null());
+  EXPECT_EQ(parsed.at("poses"), 9);
+  EXPECT_DOUBLE_EQ(parsed.at("seconds"), 2.5);
+  EXPECT_DOUBLE_EQ(parsed.at("peak_memory_mb"), 40.0);
+}
+
+TEST(RunMetricsJson, IsNullWhereThereWasNoReference) {
+  const json parsed = json::parse(to_json(RunMetrics{.poses = 9, .errors = {}, .cost = {}}));
+  for (const char* key : {"share_within_1_m", "share_within_2_m", "translation_error_m",
+                          "heading_error_deg", "lost_at_end", "first_loss_s"}) {
+    EXPECT_TRUE(parsed.at(key).is_null()) << key;
+  }
+  EXPECT_EQ(parsed.at("poses"), 9);
+}
+
+TEST(TrajectoryMetricsJson, HasTheAbsoluteErrorsOfEveryAlignment) {
+  MetricTrajectory reference;
+  MetricTrajectory estimate;
+  for (const double x : {0.0, 1.0, 2.0}) {
+    reference.append(x, Se2::from_xy_yaw(x, 0.0, 0.0));
+    estimate.append(x, Se2::from_xy_yaw(x, 2.0, 0.0));
+  }
+  const TrajectoryMetrics metrics =
+      measure_trajectory(reference, estimate, 0.01, {{.delta = PathDelta{.path_m = 1.0}}});
+  const json parsed = json::parse(to_json(metrics));
+  for (const char* alignment : {"unaligned", "first_pose", "se2", "sim2"}) {
+    expect_five_numbers(parsed.at("ate_m").at(alignment));
+  }
+  EXPECT_NEAR(parsed.at("ate_m").at("unaligned").at("rmse"), 2.0, 1e-12);
+  EXPECT_NEAR(parsed.at("ate_m").at("first_pose").at("max"), 0.0, 1e-12);
+  EXPECT_EQ(parsed.at("matched_poses"), 3);
+  EXPECT_EQ(parsed.at("rpe").at(0).at("pairs"), 2);
+}
+
+TEST(TrajectoryMetricsJson, IsNullWhereNoTimesMatch) {
+  MetricTrajectory reference;
+  reference.append(0.0, Se2());
+  MetricTrajectory estimate;
+  estimate.append(5.0, Se2());
+  const json parsed = json::parse(to_json(measure_trajectory(reference, estimate, 0.01, {})));
+  EXPECT_TRUE(parsed.at("ate_m").at("se2").is_null());
+  EXPECT_EQ(parsed.at("matched_poses"), 0);
+}
+
+}  // namespace
+}  // namespace sketchloc
