@@ -2,6 +2,9 @@
 // Only plain multiplications and additions, so that every instruction set gives the same bits.
 #include <hwy/highway.h>
 
+#include <cstddef>
+#include <cstdint>
+
 #if defined(SKETCHLOC_REGISTRATION_SIMD_MATH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SKETCHLOC_REGISTRATION_SIMD_MATH_INL
 #undef SKETCHLOC_REGISTRATION_SIMD_MATH_INL
@@ -51,6 +54,41 @@ HWY_INLINE UnitVector<V> unit_vector(D d, V heading_rad) {
   const V sine = hn::IfThenElse(odd, c, s);
   return {hn::IfThenElse(cosine_negative, hn::Neg(cosine), cosine),
           hn::IfThenElse(sine_negative, hn::Neg(sine), sine)};
+}
+
+/// Natural logarithm of positive normal numbers: m 2^k with m in [sqrt(1/2), sqrt(2)), then a
+/// minimax polynomial in m - 1 (ours, maximal error 4e-8 before rounding).
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V logarithm(D d, V positive) {
+  const hn::RebindToSigned<D> di;
+  const auto bits = hn::BitCast(di, positive);
+  const auto exponent = hn::ShiftRight<23>(hn::Sub(bits, hn::Set(di, 0x3F3504F3)));
+  const V k = hn::ConvertTo(d, exponent);
+  const V mantissa = hn::BitCast(d, hn::Sub(bits, hn::ShiftLeft<23>(exponent)));
+  const V t = hn::Sub(mantissa, hn::Set(d, 1.0F));
+  constexpr float kCoefficients[] = {1.63361126e-1F,  -1.73261702e-1F, 1.98882273e-1F,
+                                     -2.49614468e-1F, 3.33352627e-1F,  -5.00005848e-1F};
+  V p = hn::Set(d, -1.00346447e-1F);
+  for (const float coefficient : kCoefficients) {
+    p = hn::Add(hn::Mul(p, t), hn::Set(d, coefficient));
+  }
+  // ln 2 in two parts; the product of the first with k is exact.
+  const V low = hn::Add(hn::Mul(hn::Mul(t, t), p), hn::Mul(k, hn::Set(d, 1.42860677e-6F)));
+  return hn::Add(hn::Mul(k, hn::Set(d, 0.693145752F)), hn::Add(t, low));
+}
+
+/// Calls some_at(d, i) for all i in [0, count) in whole vectors, then one by one.
+template <class Function>
+HWY_INLINE void for_each_vector(std::size_t count, const Function& some_at) {
+  const hn::ScalableTag<float> d;
+  const std::size_t lanes = hn::Lanes(d);
+  std::size_t i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    some_at(d, i);
+  }
+  for (; i < count; ++i) {
+    some_at(hn::CappedTag<float, 1>(), i);
+  }
 }
 
 }  // namespace sketchloc::detail::HWY_NAMESPACE

@@ -4,9 +4,10 @@
 #include <limits>
 
 namespace sketchloc::testing {
+namespace {
 
-double traverse(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origin,
-                double heading_rad, double max_range) {
+double walk(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origin, double heading_rad,
+            double max_range, bool leave_own_stroke) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   const Eigen::Vector2d direction(std::cos(heading_rad), std::sin(heading_rad));
   Cell cell = cell_at(origin);
@@ -21,9 +22,11 @@ double traverse(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origi
 
   double distance = 0.0;
   while (occupied.contains(cell) && distance < max_range) {
-    if (occupied.row(cell.row)[static_cast<std::size_t>(cell.column)] != 0) {
+    const bool in_stroke = occupied.row(cell.row)[static_cast<std::size_t>(cell.column)] != 0;
+    if (in_stroke && !leave_own_stroke) {
       return distance;
     }
+    leave_own_stroke = leave_own_stroke && in_stroke;
     if (next_column < next_row) {
       distance = next_column;
       next_column += per_column;
@@ -35,6 +38,18 @@ double traverse(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origi
     }
   }
   return max_range;
+}
+
+}  // namespace
+
+double traverse(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origin,
+                double heading_rad, double max_range) {
+  return walk(occupied, origin, heading_rad, max_range, false);
+}
+
+double traverse_beyond_own_stroke(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origin,
+                                  double heading_rad, double max_range) {
+  return walk(occupied, origin, heading_rad, max_range, true);
 }
 
 }  // namespace sketchloc::testing

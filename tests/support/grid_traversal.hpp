@@ -13,4 +13,8 @@ namespace sketchloc::testing {
 double traverse(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origin,
                 double heading_rad, double max_range);
 
+/// The same, but from within a stroke the ray first leaves it and goes on to the next one.
+double traverse_beyond_own_stroke(const Grid<std::uint8_t>& occupied, const Eigen::Vector2d& origin,
+                                  double heading_rad, double max_range);
+
 }  // namespace sketchloc::testing

@@ -1,4 +1,4 @@
-#include "registration/unit_vectors.hpp"
+#include "registration/vector_math.hpp"
 
 #include <gtest/gtest.h>
 
@@ -47,6 +47,36 @@ TEST(UnitVectors, AreTheSameBitsWithEveryInstructionSet) {
     unit_vectors(headings, other_cosine, other_sine);
     EXPECT_EQ(cosine, other_cosine) << hwy::TargetName(target);
     EXPECT_EQ(sine, other_sine) << hwy::TargetName(target);
+  }
+}
+
+std::vector<float> many_positive_numbers() {
+  std::vector<float> numbers = {1.0F, 0.70710677F, 0.70710683F, 1.4142135F, 1e-37F, 3e38F};
+  for (int i = -3000; i <= 3000; ++i) {
+    numbers.push_back(std::exp(0.01F * static_cast<float>(i)));
+  }
+  return numbers;
+}
+
+TEST(Logarithms, AreNatural) {
+  const std::vector<float> numbers = many_positive_numbers();
+  std::vector<float> logs(numbers.size());
+  logarithms(numbers, logs);
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const double expected = std::log(static_cast<double>(numbers[i]));
+    ASSERT_NEAR(logs[i], expected, 2e-7 + 1.2e-7 * std::abs(expected)) << numbers[i];
+  }
+}
+
+TEST(Logarithms, AreTheSameBitsWithEveryInstructionSet) {
+  const std::vector<float> numbers = many_positive_numbers();
+  std::vector<float> logs(numbers.size());
+  logarithms(numbers, logs);
+  for (const std::int64_t target : vector_targets()) {
+    const OnlyTarget only(target);
+    std::vector<float> other(numbers.size());
+    logarithms(numbers, other);
+    EXPECT_EQ(logs, other) << hwy::TargetName(target);
   }
 }
 

@@ -1,11 +1,11 @@
-#include "registration/unit_vectors.hpp"
+#include "registration/vector_math.hpp"
 
 #include <cstddef>
 
 #include "motion/check.hpp"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "registration/unit_vectors.cpp"
+#define HWY_TARGET_INCLUDE "registration/vector_math.cpp"
 #include <hwy/foreach_target.h>  // compiles this file once per instruction set
 #include <hwy/highway.h>
 
@@ -16,22 +16,22 @@ namespace sketchloc::HWY_NAMESPACE {
 namespace {
 
 namespace hn = hwy::HWY_NAMESPACE;
+namespace simd = detail::HWY_NAMESPACE;
 
 void fill_unit_vectors(const float* heading_rad, std::size_t count, float* cosine, float* sine) {
-  const hn::ScalableTag<float> d;
-  const std::size_t lanes = hn::Lanes(d);
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    const auto unit = detail::HWY_NAMESPACE::unit_vector(d, hn::LoadU(d, heading_rad + i));
+  const auto some_at = [=](auto d, std::size_t i) {
+    const auto unit = simd::unit_vector(d, hn::LoadU(d, heading_rad + i));
     hn::StoreU(unit.cosine, d, cosine + i);
     hn::StoreU(unit.sine, d, sine + i);
-  }
-  const hn::CappedTag<float, 1> one;
-  for (; i < count; ++i) {
-    const auto unit = detail::HWY_NAMESPACE::unit_vector(one, hn::LoadU(one, heading_rad + i));
-    hn::StoreU(unit.cosine, one, cosine + i);
-    hn::StoreU(unit.sine, one, sine + i);
-  }
+  };
+  simd::for_each_vector(count, some_at);
+}
+
+void fill_logarithms(const float* positive, std::size_t count, float* logarithm) {
+  const auto some_at = [=](auto d, std::size_t i) {
+    hn::StoreU(simd::logarithm(d, hn::LoadU(d, positive + i)), d, logarithm + i);
+  };
+  simd::for_each_vector(count, some_at);
 }
 
 }  // namespace
@@ -42,6 +42,7 @@ HWY_AFTER_NAMESPACE();
 namespace sketchloc {
 
 HWY_EXPORT(fill_unit_vectors);
+HWY_EXPORT(fill_logarithms);
 
 void unit_vectors(std::span<const float> heading_rad, std::span<float> cosine,
                   std::span<float> sine) {
@@ -49,6 +50,11 @@ void unit_vectors(std::span<const float> heading_rad, std::span<float> cosine,
         "one cosine and one sine per heading");
   HWY_DYNAMIC_DISPATCH(fill_unit_vectors)
   (heading_rad.data(), heading_rad.size(), cosine.data(), sine.data());
+}
+
+void logarithms(std::span<const float> positive, std::span<float> logarithm) {
+  check(logarithm.size() == positive.size(), "one logarithm per number");
+  HWY_DYNAMIC_DISPATCH(fill_logarithms)(positive.data(), positive.size(), logarithm.data());
 }
 
 }  // namespace sketchloc
