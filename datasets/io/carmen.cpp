@@ -6,6 +6,7 @@
 #include <ranges>
 
 #include "datasets/io/detail/columns.hpp"
+#include "datasets/io/detail/limits.hpp"
 #include "datasets/io/detail/whole_lines.hpp"
 #include "motion/trajectory.hpp"
 
@@ -13,34 +14,28 @@ namespace sketchloc {
 namespace detail {
 namespace {
 
-constexpr std::int64_t kMostReadings = 100'000;
 constexpr double kDefaultMaxRange_m = 80.0;
 constexpr double kOdometryHold_s = 1.0;  ///< a scan this far outside the ODOM lines keeps the end
 
-/// A scan line as it stands, before it is known which odometry holds for it.
-struct LaserLine {
-  std::size_t line = 0;
-  RunStep step;
-};
-
 struct CarmenLog {
   std::optional<double> front_laser_max_m;  ///< PARAM
-  std::vector<LaserLine> front_laser;       ///< FLASER
-  std::vector<LaserLine> robot_laser;       ///< ROBOTLASER1
-  std::vector<Stamped<Se2>> odometry;       ///< ODOM
+  std::vector<RunStep> front_laser;         ///< FLASER
+  std::vector<RunStep> robot_laser;         ///< ROBOTLASER1
+  std::vector<std::size_t> robot_laser_lines;
+  std::vector<Stamped<Se2>> odometry;  ///< ODOM
 };
 
 Se2 read_pose(Columns& columns, const std::string& name) {
-  const double x_m = columns.finite(name + "x");
-  const double y_m = columns.finite(name + "y");
-  return Se2::from_xy_yaw(x_m, y_m, columns.finite(name + "theta"));
+  const double x_m = columns.number(name + "x", kMostPosition_m);
+  const double y_m = columns.number(name + "y", kMostPosition_m);
+  return Se2::from_xy_yaw(x_m, y_m, columns.number(name + "theta", kMostAngle_rad));
 }
 
 /// "time host logger_time", with which every CARMEN message ends.
 double read_time(Columns& columns) {
-  const double time_s = columns.finite("time");
+  const double time_s = columns.number("time", kMostTime_s);
   columns.text("host");
-  columns.finite("logger_time");
+  columns.number("logger_time", kMostTime_s);
   columns.expect_end();
   return time_s;
 }
@@ -56,9 +51,9 @@ std::vector<float> read_ranges(Columns& columns) {
     }
     const std::string_view column = columns.text("range");
     const std::optional<double> range_m = parse_number(column);
-    if (!range_m || !std::isfinite(*range_m)) {
-      fail_expected(columns.place(), "range " + std::to_string(beam), "a finite number of metres",
-                    quoted(column), "correct the value or remove the line");
+    if (!is_within(range_m, kMostRange_m)) {
+      fail_expected(columns.place(), "range " + std::to_string(beam), number_within(kMostRange_m),
+                    in_quotes(column), "correct the value or remove the line");
     }
     ranges_m.push_back(static_cast<float>(*range_m));
   }
@@ -67,56 +62,56 @@ std::vector<float> read_ranges(Columns& columns) {
 
 /// FLASER n r1..rn x y theta odom_x odom_y odom_theta time host logger_time: 180 degrees from
 /// right to left. The first pose may be corrected by a mapper, so only the second one is used.
-LaserLine parse_front_laser(Columns& columns) {
-  LaserLine laser{.line = columns.place().line, .step = {}};
-  Scan& scan = laser.step.scan;
+RunStep parse_front_laser(Columns& columns) {
+  RunStep step;
+  Scan& scan = step.scan;
   scan.ranges_m = read_ranges(columns);
   const std::size_t count = scan.ranges_m.size();
   const std::size_t steps = count % 2 == 1 && count > 1 ? count - 1 : count;
   scan.first_angle_rad = -std::numbers::pi / 2;
   scan.angle_step_rad = std::numbers::pi / static_cast<double>(steps);
   read_pose(columns, "");
-  laser.step.odom_from_robot = read_pose(columns, "odom_");
+  step.odom_from_robot = read_pose(columns, "odom_");
   scan.time_s = read_time(columns);
-  return laser;
+  return step;
 }
 
 /// ROBOTLASER1 type start_angle fov resolution max_range accuracy remission_mode n r1..rn
 /// m e1..em laser_pose robot_pose tv rv forward_safety side_safety turn_axis time host logger_time.
-LaserLine parse_robot_laser(Columns& columns) {
-  LaserLine laser{.line = columns.place().line, .step = {}};
-  Scan& scan = laser.step.scan;
+RunStep parse_robot_laser(Columns& columns) {
+  RunStep step;
+  Scan& scan = step.scan;
   columns.skip(1, "laser_type");
-  scan.first_angle_rad = columns.finite("start_angle");
-  columns.finite("field_of_view");
-  scan.angle_step_rad = columns.finite("angular_resolution");
-  scan.max_range_m = columns.finite("maximum_range");
-  columns.finite("accuracy");
+  scan.first_angle_rad = columns.number("start_angle", kMostBeamAngle_rad);
+  columns.number("field_of_view", kMostBeamAngle_rad);
+  scan.angle_step_rad = columns.number("angular_resolution", kMostBeamAngle_rad);
+  scan.max_range_m = columns.number("maximum_range", kMostRange_m);
+  columns.number("accuracy", kMostRange_m);
   columns.skip(1, "remission_mode");
   scan.ranges_m = read_ranges(columns);
   const std::int64_t remissions = columns.integer("num_remissions", 0, kMostReadings);
   columns.skip(static_cast<std::size_t>(remissions), "remission");
   const Se2 odom_from_laser = read_pose(columns, "laser_pose_");
-  laser.step.odom_from_robot = read_pose(columns, "robot_pose_");
-  scan.robot_from_laser = laser.step.odom_from_robot.inverse() * odom_from_laser;
+  step.odom_from_robot = read_pose(columns, "robot_pose_");
+  scan.robot_from_laser = step.odom_from_robot.inverse() * odom_from_laser;
   for (const char* field :
        {"laser_tv", "laser_rv", "forward_safety_dist", "side_safety_dist", "turn_axis"}) {
-    columns.finite(field);
+    columns.number(field, kMostPosition_m);
   }
   scan.time_s = read_time(columns);
   if (!(scan.max_range_m > 0.0)) {
     fail_expected(columns.place(), "maximum_range", "a number above 0",
                   std::to_string(scan.max_range_m), "correct the value");
   }
-  return laser;
+  return step;
 }
 
 /// ODOM x y theta tv rv accel time host logger_time
 Stamped<Se2> parse_odometry(Columns& columns) {
   const Se2 odom_from_robot = read_pose(columns, "");
-  columns.finite("tv");
-  columns.finite("rv");
-  columns.finite("accel");
+  columns.number("tv", kMostPosition_m);
+  columns.number("rv", kMostPosition_m);
+  columns.number("accel", kMostPosition_m);
   return {.time_s = read_time(columns), .pose = odom_from_robot};
 }
 
@@ -125,7 +120,7 @@ std::optional<double> parse_front_laser_max(Columns& columns) {
   if (name != "robot_front_laser_max" && name != "laser_front_laser_max") {
     return std::nullopt;
   }
-  const double max_range_m = columns.finite(name);
+  const double max_range_m = columns.number(name, kMostRange_m);
   if (!(max_range_m > 0.0)) {
     fail_expected(columns.place(), name, "a number above 0", std::to_string(max_range_m),
                   "correct the value");
@@ -133,15 +128,9 @@ std::optional<double> parse_front_laser_max(Columns& columns) {
   return max_range_m;
 }
 
-void append_in_order(std::vector<LaserLine>& lasers, LaserLine laser, const Place& place) {
-  const double time_s = laser.step.scan.time_s;
-  if (!lasers.empty() && time_s < lasers.back().step.scan.time_s) {
-    fail_expected(
-        place, "time",
-        "at least the " + std::to_string(lasers.back().step.scan.time_s) + " s of the scan before",
-        std::to_string(time_s) + " s", "put the lines in order of time");
-  }
-  lasers.push_back(std::move(laser));
+void append_in_order(std::vector<RunStep>& steps, RunStep step, const Place& place) {
+  expect_order_of_time(steps, step.scan.time_s, place);
+  steps.push_back(std::move(step));
 }
 
 void parse_line(std::string_view line, const Place& place, CarmenLog& log) {
@@ -154,6 +143,7 @@ void parse_line(std::string_view line, const Place& place, CarmenLog& log) {
     append_in_order(log.front_laser, parse_front_laser(columns), place);
   } else if (keyword == "ROBOTLASER1") {
     append_in_order(log.robot_laser, parse_robot_laser(columns), place);
+    log.robot_laser_lines.push_back(place.line);
   } else if (keyword == "ODOM") {
     log.odometry.push_back(parse_odometry(columns));
   } else if (keyword == "PARAM") {
@@ -187,22 +177,13 @@ Se2 odometry_at(const MetricTrajectory& odometry, double time_s, const Place& pl
   return *odometry.at(std::clamp(time_s, first_s, last_s));
 }
 
-Run run_of(std::vector<LaserLine> lasers) {
-  Run run;
-  run.steps.reserve(lasers.size());
-  for (LaserLine& laser : lasers) {
-    run.steps.push_back(std::move(laser.step));
-  }
-  return run;
-}
-
 RunFile run_of_front_laser(CarmenLog log, const RunReading& reading) {
   const double max_range_m =
       reading.max_range_m.value_or(log.front_laser_max_m.value_or(kDefaultMaxRange_m));
-  for (LaserLine& laser : log.front_laser) {
-    laser.step.scan.max_range_m = max_range_m;
+  for (RunStep& step : log.front_laser) {
+    step.scan.max_range_m = max_range_m;
   }
-  RunFile file{.run = run_of(std::move(log.front_laser)), .notes = {}};
+  RunFile file{.run = {std::move(log.front_laser)}, .notes = {}};
   if (!log.robot_laser.empty()) {
     file.notes.push_back("the log has FLASER and ROBOTLASER1 lines; only FLASER is read");
   }
@@ -216,15 +197,15 @@ RunFile run_of_robot_laser(CarmenLog log, const RunReading& reading, const Place
                            ? "no ODOM lines: the odometry is the robot pose of the ROBOTLASER1 "
                              "lines, which a mapper may have corrected"
                            : "the odometry is interpolated between the ODOM lines");
-  for (LaserLine& laser : log.robot_laser) {
-    Scan& scan = laser.step.scan;
-    scan.max_range_m = reading.max_range_m.value_or(scan.max_range_m);
+  for (std::size_t i = 0; i < log.robot_laser.size(); ++i) {
+    RunStep& step = log.robot_laser[i];
+    step.scan.max_range_m = reading.max_range_m.value_or(step.scan.max_range_m);
     if (!odometry.empty()) {
-      laser.step.odom_from_robot =
-          odometry_at(odometry, scan.time_s, {.file = place.file, .line = laser.line});
+      step.odom_from_robot = odometry_at(odometry, step.scan.time_s,
+                                         {.file = place.file, .line = log.robot_laser_lines[i]});
     }
   }
-  file.run = run_of(std::move(log.robot_laser));
+  file.run.steps = std::move(log.robot_laser);
   return file;
 }
 

@@ -13,6 +13,11 @@ namespace sketchloc {
 /// Heading: heading_rigid_rad. Scored: in_image and in_hull. Format: docs/formats.md.
 Reference read_reference(const std::filesystem::path& csv, int sketch_height_px);
 
+/// Writes the same columns, atomically. Those that a Reference does not know are "nan"; heading_rad
+/// repeats the rigid heading; in_image and in_hull are both `scored`.
+void write_reference(const std::filesystem::path& csv, const Reference& reference,
+                     int sketch_height_px);
+
 /// A pose that counts as right as well, under another reading of the drawing.
 struct AlternativePose {
   std::size_t step = 0;  ///< index of the scan in the run

@@ -20,7 +20,7 @@ struct RunReading {
   /// Keep the whole lines of a log that stops in the middle of a line or of its gzip stream.
   bool allow_truncated = false;
   std::size_t max_line_bytes = std::size_t{4} << 20;       ///< longer lines are an error
-  std::uint64_t max_total_bytes = std::uint64_t{4} << 30;  ///< after unpacking; more is an error
+  std::uint64_t max_total_bytes = std::uint64_t{1} << 30;  ///< after unpacking; more is an error
 };
 
 /// Throws std::invalid_argument naming the field, its range and its value.
@@ -39,5 +39,20 @@ Run read_run(const std::filesystem::path& log, const RunReading& reading = {});
 
 /// CARMEN: FLASER (raw odometry in its second pose) or ROBOTLASER1, ODOM and PARAM lines.
 RunFile read_carmen(const std::filesystem::path& log, const RunReading& reading = {});
+
+/// JSON lines: one step per line, as write_jsonl writes them.
+RunFile read_jsonl(const std::filesystem::path& log, const RunReading& reading = {});
+
+/// One step from one line of JSON, for logs and for robots that send their scans as they come.
+/// Errors name `source` and `line_number`.
+RunStep parse_json_step(std::string_view line, const std::filesystem::path& source,
+                        std::size_t line_number);
+
+/// The line for one step, without the end of line. Throws std::invalid_argument for a step that
+/// JSON cannot say: a pose, a time or an angle that is not finite. NaN ranges become null.
+std::string json_line(const RunStep& step);
+
+/// Writes one step per line, atomically.
+void write_jsonl(const std::filesystem::path& log, const Run& run);
 
 }  // namespace sketchloc

@@ -31,4 +31,12 @@ void validate(const SketchReading& reading);
 /// std::runtime_error with the file and the reason; a picture without ink is an error.
 Sketch read_sketch(const std::filesystem::path& picture, const SketchReading& reading = {});
 
+/// Reads a metric map: the YAML file of ROS map_server (modes trinary and scale) with its picture.
+/// Known scale; occupied where map_server says so. Unknown cells count as not occupied. Of
+/// `reading` only max_pixels matters.
+Sketch read_map_server(const std::filesystem::path& yaml, const SketchReading& reading = {});
+
+/// read_map_server for .yaml and .yml, else read_sketch.
+Sketch read_any_drawing(const std::filesystem::path& drawing, const SketchReading& reading = {});
+
 }  // namespace sketchloc

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "datasets/io/detail/number_text.hpp"
+
 namespace sketchloc::detail {
 namespace {
 
@@ -39,6 +41,18 @@ std::optional<double> parse_number(std::string_view text) { return parse_all<dou
 
 std::optional<std::int64_t> parse_integer(std::string_view text) {
   return parse_all<std::int64_t>(text);
+}
+
+bool is_within(const std::optional<double>& value, double limit) {
+  return value && std::abs(*value) <= limit;  // false for NaN
+}
+
+std::string number_within(double limit) {
+  std::string text = "a number from ";
+  append_number(text, -limit);
+  text += " to ";
+  append_number(text, limit);
+  return text;
 }
 
 Columns::Columns(std::string_view line, const Place& place, char separator)
@@ -78,14 +92,14 @@ std::string_view Columns::text(std::string_view field) {
   return take();
 }
 
-double Columns::finite(std::string_view field) {
+double Columns::number(std::string_view field, double limit) {
   const std::string_view column = text(field);
-  const std::optional<double> number = parse_number(column);
-  if (!number || !std::isfinite(*number)) {
-    fail_expected(*place_, field, "a finite number", quoted(column),
+  const std::optional<double> value = parse_number(column);
+  if (!is_within(value, limit)) {
+    fail_expected(*place_, field, number_within(limit), in_quotes(column),
                   "correct the value or remove the line");
   }
-  return *number;
+  return *value;
 }
 
 std::int64_t Columns::integer(std::string_view field, std::int64_t low, std::int64_t high) {
@@ -94,7 +108,7 @@ std::int64_t Columns::integer(std::string_view field, std::int64_t low, std::int
   if (!number || *number < low || *number > high) {
     fail_expected(*place_, field,
                   "an integer from " + std::to_string(low) + " to " + std::to_string(high),
-                  quoted(column), "correct the value or remove the line");
+                  in_quotes(column), "correct the value or remove the line");
   }
   return *number;
 }
@@ -107,7 +121,7 @@ void Columns::skip(std::size_t count, std::string_view field) {
 
 void Columns::expect_end() {
   if (!at_end_) {
-    fail_expected(*place_, "columns", "the end of the line", quoted(rest_),
+    fail_expected(*place_, "columns", "the end of the line", in_quotes(rest_),
                   "the line is too long: check the count of its values");
   }
 }

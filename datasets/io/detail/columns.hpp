@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "datasets/io/detail/place.hpp"
@@ -12,6 +13,10 @@ namespace sketchloc::detail {
 /// "nan" and "inf" are numbers here.
 std::optional<double> parse_number(std::string_view text);
 std::optional<std::int64_t> parse_integer(std::string_view text);
+
+/// Is it a number, and in [-limit, limit]? And the words for that.
+bool is_within(const std::optional<double>& value, double limit);
+std::string number_within(double limit);
 
 /// The columns of one line, taken from left to right; every miss is an error with file, line and
 /// the name of the column.
@@ -25,8 +30,8 @@ class Columns {
   bool at_end() const { return at_end_; }
   /// The next column as it stands.
   std::string_view text(std::string_view field);
-  /// The next column as a finite number.
-  double finite(std::string_view field);
+  /// The next column as a number in [-limit, limit].
+  double number(std::string_view field, double limit);
   /// The next column as an integer in [low, high].
   std::int64_t integer(std::string_view field, std::int64_t low, std::int64_t high);
   /// Takes `count` columns of no interest.

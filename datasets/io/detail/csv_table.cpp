@@ -1,7 +1,6 @@
 #include "datasets/io/detail/csv_table.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "datasets/io/detail/line_reader.hpp"
 #include "motion/check.hpp"
@@ -31,7 +30,7 @@ std::vector<std::string> read_header(LineReader& lines,
   const std::vector<std::string_view> names = split(*line, lines.place());
   for (const std::string_view column : columns) {
     if (std::ranges::count(names, column) != 1) {
-      fail_expected(lines.place(), "header", "one column " + quoted(column), quoted(*line),
+      fail_expected(lines.place(), "header", "one column " + in_quotes(column), in_quotes(*line),
                     "the columns are listed in docs/formats.md");
     }
   }
@@ -40,50 +39,50 @@ std::vector<std::string> read_header(LineReader& lines,
 
 }  // namespace
 
-std::string_view CsvRow::value(std::string_view column) const {
+std::string_view CsvRow::text(std::string_view column) const {
   const auto found = std::ranges::find(header_, column);
   check(found != header_.end(), "a column that was not asked for");
   return values_[static_cast<std::size_t>(found - header_.begin())];
 }
 
-double CsvRow::finite(std::string_view column) const {
-  const std::optional<double> number = parse_number(value(column));
-  if (!number || !std::isfinite(*number)) {
-    fail_expected(*place_, column, "a finite number", quoted(value(column)), kWhatToDo);
+double CsvRow::number(std::string_view column, double limit) const {
+  const std::optional<double> value = parse_number(text(column));
+  if (!is_within(value, limit)) {
+    fail_expected(*place_, column, number_within(limit), in_quotes(text(column)), kWhatToDo);
   }
-  return *number;
+  return *value;
 }
 
-double CsvRow::above_zero(std::string_view column) const {
-  const double number = finite(column);
-  if (!(number > 0.0)) {
-    fail_expected(*place_, column, "a number above 0", quoted(value(column)), kWhatToDo);
+double CsvRow::above_zero(std::string_view column, double limit) const {
+  const double value = number(column, limit);
+  if (!(value > 0.0)) {
+    fail_expected(*place_, column, "a number above 0", in_quotes(text(column)), kWhatToDo);
   }
-  return number;
+  return value;
 }
 
-double CsvRow::at_least_zero(std::string_view column) const {
-  const double number = finite(column);
-  if (!(number >= 0.0)) {
-    fail_expected(*place_, column, "a number of at least 0", quoted(value(column)), kWhatToDo);
+double CsvRow::at_least_zero(std::string_view column, double limit) const {
+  const double value = number(column, limit);
+  if (!(value >= 0.0)) {
+    fail_expected(*place_, column, "a number of at least 0", in_quotes(text(column)), kWhatToDo);
   }
-  return number;
+  return value;
 }
 
 std::size_t CsvRow::index(std::string_view column) const {
-  const std::optional<std::int64_t> number = parse_integer(value(column));
+  const std::optional<std::int64_t> number = parse_integer(text(column));
   if (!number || *number < 0) {
-    fail_expected(*place_, column, "an integer from 0 on", quoted(value(column)), kWhatToDo);
+    fail_expected(*place_, column, "an integer from 0 on", in_quotes(text(column)), kWhatToDo);
   }
   return static_cast<std::size_t>(*number);
 }
 
 bool CsvRow::flag(std::string_view column) const {
-  const std::string_view text = value(column);
-  if (text != "0" && text != "1") {
-    fail_expected(*place_, column, "0 or 1", quoted(text), kWhatToDo);
+  const std::string_view flag = text(column);
+  if (flag != "0" && flag != "1") {
+    fail_expected(*place_, column, "0 or 1", in_quotes(flag), kWhatToDo);
   }
-  return text == "1";
+  return flag == "1";
 }
 
 void for_each_csv_row(const std::filesystem::path& csv,
@@ -104,9 +103,7 @@ void for_each_csv_row(const std::filesystem::path& csv,
     take(CsvRow(header, values, lines.place()));
     ++rows;
   }
-  if (lines.cut_off()) {
-    fail(lines.place(), "the gzip stream ends early, after this line; copy the file again");
-  }
+  lines.expect_whole();
   if (rows == 0) {
     fail(lines.place(), "rows: expected at least one after the header, found none");
   }

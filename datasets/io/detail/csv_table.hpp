@@ -19,15 +19,15 @@ class CsvRow {
          const Place& place)
       : header_(header), values_(values), place_(&place) {}
 
-  double finite(std::string_view column) const;
-  double above_zero(std::string_view column) const;
-  double at_least_zero(std::string_view column) const;
-  std::size_t index(std::string_view column) const;  ///< an integer from 0 on
-  bool flag(std::string_view column) const;          ///< 0 or 1
+  double number(std::string_view column, double limit) const;         ///< in [-limit, limit]
+  double above_zero(std::string_view column, double limit) const;     ///< in (0, limit]
+  double at_least_zero(std::string_view column, double limit) const;  ///< in [0, limit]
+  std::size_t index(std::string_view column) const;                   ///< an integer from 0 on
+  bool flag(std::string_view column) const;                           ///< 0 or 1
   const Place& place() const { return *place_; }
 
  private:
-  std::string_view value(std::string_view column) const;
+  std::string_view text(std::string_view column) const;
 
   std::span<const std::string> header_;
   std::span<const std::string_view> values_;

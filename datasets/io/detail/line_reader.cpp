@@ -69,6 +69,12 @@ std::optional<LineReader::Span> LineReader::find_line() {
   }
 }
 
+void LineReader::expect_whole() const {
+  if (cut_off_) {
+    fail(place_, "the gzip stream ends early, at this line; copy the file again");
+  }
+}
+
 /// Appends to the buffer; false at the end of the file.
 bool LineReader::read_more() {
   if (finished_) {
@@ -103,6 +109,19 @@ bool LineReader::read_more() {
                                              " bytes after unpacking, found more; split the file");
   }
   return true;
+}
+
+void for_each_data_line(
+    const std::filesystem::path& file,
+    const std::function<void(std::string_view line, const Place& place)>& take) {
+  LineReader lines(file);
+  while (const std::optional<std::string_view> line = lines.next()) {
+    const std::size_t start = line->find_first_not_of(" \t");
+    if (start != std::string_view::npos && (*line)[start] != '#') {
+      take(*line, lines.place());
+    }
+  }
+  lines.expect_whole();
 }
 
 }  // namespace sketchloc::detail

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -16,7 +17,7 @@ namespace sketchloc::detail {
 /// What a reader of text takes at most, so that no input can eat the memory.
 struct TextLimits {
   std::size_t line_bytes = std::size_t{4} << 20;       ///< longest line
-  std::uint64_t total_bytes = std::uint64_t{4} << 30;  ///< whole text, after unpacking
+  std::uint64_t total_bytes = std::uint64_t{1} << 30;  ///< whole text, after unpacking
 };
 
 /// The lines of a text file, plain or gzip (found by content), in bounded memory.
@@ -37,6 +38,8 @@ class LineReader {
   bool line_was_ended() const { return line_was_ended_; }
   /// True if the gzip stream stops before its end; known after the last line.
   bool cut_off() const { return cut_off_; }
+  /// An error if it does.
+  void expect_whole() const;
 
  private:
   struct Close {
@@ -62,5 +65,10 @@ class LineReader {
   bool line_was_ended_ = true;
   bool cut_off_ = false;
 };
+
+/// Gives the lines that are neither blank nor #-comments to `take`. A gzip stream that ends early
+/// is an error.
+void for_each_data_line(const std::filesystem::path& file,
+                        const std::function<void(std::string_view line, const Place& place)>& take);
 
 }  // namespace sketchloc::detail

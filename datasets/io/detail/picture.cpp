@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
+#include "datasets/io/detail/file_bytes.hpp"
 #include "datasets/io/detail/place.hpp"
 
 namespace sketchloc::detail {
@@ -17,7 +15,7 @@ namespace {
 
 using Bytes = std::span<const unsigned char>;
 
-constexpr std::size_t kMostFileBytes = std::size_t{256} << 20;
+constexpr std::size_t kMostPictureBytes = std::size_t{256} << 20;
 constexpr std::array<unsigned char, 8> kPngStart = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 
 int big_endian(Bytes bytes) {
@@ -41,20 +39,38 @@ bool is_pnm(Bytes bytes) {
          std::isspace(bytes[2]) != 0;
 }
 
-/// The first start-of-frame segment holds the size.
-std::optional<cv::Size> jpeg_size(Bytes bytes) {
+/// The head of a JPEG: its size and where the pixels begin.
+struct JpegHead {
+  std::optional<cv::Size> size;
+  std::size_t pixels_at = 0;
+};
+
+/// Walks over the segments up to the first scan.
+JpegHead read_jpeg_head(Bytes bytes) {
+  constexpr unsigned char kStartOfScan = 0xda;
+  JpegHead head;
   std::size_t at = 2;
-  while (at + 9 <= bytes.size() && bytes[at] == 0xff) {
+  while (at + 9 <= bytes.size() && bytes[at] == 0xff && bytes[at + 1] != kStartOfScan) {
     const unsigned char marker = bytes[at + 1];
-    const bool frame =
+    const bool is_frame =
         marker >= 0xc0 && marker <= 0xcf && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
-    if (frame) {
-      return cv::Size(big_endian(bytes.subspan(at + 7, 2)), big_endian(bytes.subspan(at + 5, 2)));
+    if (is_frame) {
+      head.size =
+          cv::Size(big_endian(bytes.subspan(at + 7, 2)), big_endian(bytes.subspan(at + 5, 2)));
     }
-    const bool fill = marker == 0xff;
-    at += fill ? 1 : 2 + static_cast<std::size_t>(big_endian(bytes.subspan(at + 2, 2)));
+    const bool is_fill = marker == 0xff;
+    at += is_fill ? 1 : 2 + static_cast<std::size_t>(big_endian(bytes.subspan(at + 2, 2)));
   }
-  return std::nullopt;
+  head.pixels_at = std::min(at, bytes.size());
+  return head;
+}
+
+/// The decoder would make up what is missing, so we look for the end ourselves: in the pixels, ff
+/// d9 stands for nothing else.
+bool is_cut_off_jpeg(Bytes bytes) {
+  constexpr std::array<unsigned char, 2> kEnd = {0xff, 0xd9};
+  const Bytes pixels = bytes.subspan(read_jpeg_head(bytes).pixels_at);
+  return std::ranges::search(pixels, kEnd).empty();
 }
 
 /// Two decimal numbers after the magic, parted by blanks and #-comments.
@@ -82,26 +98,6 @@ std::optional<cv::Size> pnm_size(Bytes bytes) {
   return cv::Size(sizes[0], sizes[1]);
 }
 
-std::vector<unsigned char> read_bytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) {
-    fail({.file = file}, std::string("cannot be opened: ") + std::strerror(errno));
-  }
-  std::vector<unsigned char> bytes;
-  std::vector<char> block(std::size_t{1} << 20);
-  while (in.read(block.data(), static_cast<std::streamsize>(block.size())) || in.gcount() > 0) {
-    bytes.insert(bytes.end(), block.begin(), block.begin() + in.gcount());
-    if (bytes.size() > kMostFileBytes) {
-      fail({.file = file}, "size: expected at most " + std::to_string(kMostFileBytes) +
-                               " bytes, found more; is this a drawing?");
-    }
-  }
-  if (bytes.empty()) {
-    fail({.file = file}, "expected a PNG, JPEG or PGM picture, found an empty file or a folder");
-  }
-  return bytes;
-}
-
 cv::Mat to_8_bits(const cv::Mat& picture) {
   cv::Mat out = picture;
   if (picture.depth() == CV_16U) {
@@ -113,6 +109,16 @@ cv::Mat to_8_bits(const cv::Mat& picture) {
   return out;
 }
 
+/// Empty if it cannot be decoded. A photo comes turned as its camera says, as people see it.
+cv::Mat decode(const std::vector<unsigned char>& bytes) {
+  try {
+    cv::Mat picture = cv::imdecode(bytes, is_jpeg(bytes) ? cv::IMREAD_COLOR : cv::IMREAD_UNCHANGED);
+    return picture.depth() == CV_8U || picture.depth() == CV_16U ? picture : cv::Mat();
+  } catch (const cv::Exception&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 std::optional<cv::Size> picture_size(Bytes bytes) {
@@ -120,13 +126,13 @@ std::optional<cv::Size> picture_size(Bytes bytes) {
     return cv::Size(big_endian(bytes.subspan(16, 4)), big_endian(bytes.subspan(20, 4)));
   }
   if (is_jpeg(bytes)) {
-    return jpeg_size(bytes);
+    return read_jpeg_head(bytes).size;
   }
   return is_pnm(bytes) ? pnm_size(bytes) : std::nullopt;
 }
 
 cv::Mat read_picture(const std::filesystem::path& file, std::size_t max_pixels) {
-  const std::vector<unsigned char> bytes = read_bytes(file);
+  const std::vector<unsigned char> bytes = read_bytes(file, kMostPictureBytes);
   const Place place{.file = file};
   const std::optional<cv::Size> size = picture_size(bytes);
   if (!size) {
@@ -138,17 +144,25 @@ cv::Mat read_picture(const std::filesystem::path& file, std::size_t max_pixels) 
                   std::to_string(size->width) + " x " + std::to_string(size->height),
                   "scale the picture down");
   }
-  cv::Mat picture;
-  try {
-    picture = cv::imdecode(bytes, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception& error) {
-    fail(place, "the picture cannot be decoded: " + error.err);
-  }
-  if (picture.empty() || picture.size() != *size ||
-      (picture.depth() != CV_8U && picture.depth() != CV_16U)) {
+  const cv::Mat picture = decode(bytes);
+  const cv::Size turned(picture.rows, picture.cols);
+  const bool is_whole = !is_jpeg(bytes) || !is_cut_off_jpeg(bytes);
+  if (picture.empty() || !is_whole || (picture.size() != *size && turned != *size)) {
     fail(place, "the picture cannot be decoded: it is damaged, cut off or of an unusual kind");
   }
   return to_8_bits(picture);
+}
+
+Grid<std::uint8_t> grid_of(const cv::Mat1b& occupied) {
+  Grid<std::uint8_t> grid(occupied.cols, occupied.rows);
+  for (int row = 0; row < occupied.rows; ++row) {
+    const unsigned char* from = occupied.ptr(occupied.rows - 1 - row);
+    const std::span<std::uint8_t> to = grid.row(row);
+    for (std::size_t column = 0; column < to.size(); ++column) {
+      to[column] = from[column] != 0 ? 1 : 0;
+    }
+  }
+  return grid;
 }
 
 }  // namespace sketchloc::detail

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
 #include <optional>
 #include <span>
+
+#include "datasets/grid.hpp"
 
 namespace sketchloc::detail {
 
@@ -12,7 +15,12 @@ namespace sketchloc::detail {
 /// Lets us refuse a picture before its decoder asks for the memory.
 std::optional<cv::Size> picture_size(std::span<const unsigned char> bytes);
 
-/// Decodes PNG, JPEG or PNM to 8 bits, with 1 (grey), 3 (BGR) or 4 (BGRA) channels.
+/// Decodes PNG, JPEG or PNM to 8 bits, with 1 (grey), 3 (BGR) or 4 (BGRA) channels. Throws with the
+/// file and the reason.
 cv::Mat read_picture(const std::filesystem::path& file, std::size_t max_pixels);
+
+/// The one place where the rows of a picture (top first) become rows of a drawing (bottom first): 1
+/// where the mask is not 0.
+Grid<std::uint8_t> grid_of(const cv::Mat1b& occupied);
 
 }  // namespace sketchloc::detail

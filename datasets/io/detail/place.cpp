@@ -28,7 +28,7 @@ void fail_expected(const Place& place, std::string_view field, std::string_view 
   fail(place, message);
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kLongest = 40;
   std::string out = "\"";
   for (const char c : text.substr(0, kLongest)) {

@@ -22,6 +22,6 @@ struct Place {
                                 std::string_view what_to_do);
 
 /// A piece of input fit to be quoted in one line of a message: printable, at most 40 characters.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace sketchloc::detail

@@ -43,4 +43,13 @@ std::vector<std::string> for_each_whole_line(
   return {};
 }
 
+void expect_order_of_time(const std::vector<RunStep>& steps, double time_s, const Place& place) {
+  if (!steps.empty() && time_s < steps.back().scan.time_s) {
+    fail_expected(
+        place, "time",
+        "at least the " + std::to_string(steps.back().scan.time_s) + " s of the step before",
+        std::to_string(time_s) + " s", "put the lines in order of time");
+  }
+}
+
 }  // namespace sketchloc::detail

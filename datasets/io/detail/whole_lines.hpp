@@ -19,4 +19,7 @@ std::vector<std::string> for_each_whole_line(
     LineReader& lines, const RunReading& reading,
     const std::function<void(std::string_view line, const Place& place)>& parse);
 
+/// An error if a step at that time would come before the last one.
+void expect_order_of_time(const std::vector<RunStep>& steps, double time_s, const Place& place);
+
 }  // namespace sketchloc::detail

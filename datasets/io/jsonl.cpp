@@ -1,0 +1,180 @@
+#include "datasets/io/detail/jsonl.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "datasets/io/atomic_file.hpp"
+#include "datasets/io/detail/columns.hpp"
+#include "datasets/io/detail/json_fields.hpp"
+#include "datasets/io/detail/limits.hpp"
+#include "datasets/io/detail/number_text.hpp"
+#include "datasets/io/detail/whole_lines.hpp"
+
+namespace sketchloc {
+namespace detail {
+namespace {
+
+Se2 read_pose(const JsonFields& fields, std::string_view key) {
+  const JsonFields pose = fields.object(key, {"x_m", "y_m", "yaw_rad"});
+  return Se2::from_xy_yaw(pose.number("x_m", kMostPosition_m), pose.number("y_m", kMostPosition_m),
+                          pose.number("yaw_rad", kMostAngle_rad));
+}
+
+/// Ranges in metres; null is no return.
+std::vector<float> read_ranges(const JsonFields& scan) {
+  const nlohmann::json& array = scan.array("ranges_m");
+  if (array.empty() || array.size() > kMostReadings) {
+    fail_expected(scan.place(), scan.path_of("ranges_m"),
+                  "1 to " + std::to_string(kMostReadings) + " values", std::to_string(array.size()),
+                  "leave out scans without readings");
+  }
+  std::vector<float> ranges_m;
+  ranges_m.reserve(array.size());
+  for (const nlohmann::json& item : array) {
+    if (item.is_null()) {
+      ranges_m.push_back(std::numeric_limits<float>::quiet_NaN());
+      continue;
+    }
+    const std::optional<double> range_m =
+        item.is_number() ? std::optional(item.get<double>()) : std::nullopt;
+    if (!is_within(range_m, kMostRange_m)) {
+      fail_expected(scan.place(), scan.path_of("ranges_m[" + std::to_string(ranges_m.size()) + "]"),
+                    number_within(kMostRange_m) + " or null", in_words(item), "correct the value");
+    }
+    ranges_m.push_back(static_cast<float>(*range_m));
+  }
+  return ranges_m;
+}
+
+Scan read_scan(const JsonFields& step) {
+  const JsonFields fields = step.object("scan", {"first_angle_rad", "angle_step_rad", "min_range_m",
+                                                 "max_range_m", "ranges_m", "robot_from_laser"});
+  Scan scan;
+  scan.time_s = step.number("time_s", kMostTime_s);
+  scan.first_angle_rad = fields.number("first_angle_rad", kMostBeamAngle_rad);
+  scan.angle_step_rad = fields.number("angle_step_rad", kMostBeamAngle_rad);
+  scan.max_range_m = fields.number("max_range_m", kMostRange_m);
+  if (fields.has("min_range_m")) {
+    scan.min_range_m = fields.number("min_range_m", kMostRange_m);
+  }
+  if (fields.has("robot_from_laser")) {
+    scan.robot_from_laser = read_pose(fields, "robot_from_laser");
+  }
+  if (scan.min_range_m < 0.0 || scan.max_range_m <= scan.min_range_m) {
+    fail(step.place(), "scan: expected 0 <= min_range_m < max_range_m, found " +
+                           std::to_string(scan.min_range_m) + " and " +
+                           std::to_string(scan.max_range_m) + "; correct the values");
+  }
+  scan.ranges_m = read_ranges(fields);
+  return scan;
+}
+
+RunStep read_step(std::string_view line, const Place& place) {
+  const nlohmann::json json = parse_json(line, place);
+  const JsonFields fields(json, "", place, {"time_s", "odometry", "scan"});
+  RunStep step;
+  step.odom_from_robot = read_pose(fields, "odometry");
+  step.scan = read_scan(fields);
+  return step;
+}
+
+void append_field(std::string& text, std::string_view name, double value) {
+  if (!std::isfinite(value)) {
+    throw std::invalid_argument(std::string(name) + " must be finite to be written as JSON");
+  }
+  text += '"';
+  text += name;
+  text += "\":";
+  append_number(text, value);
+}
+
+void append_pose(std::string& text, const Se2& pose) {
+  text += '{';
+  append_field(text, "x_m", pose.x_m());
+  text += ',';
+  append_field(text, "y_m", pose.y_m());
+  text += ',';
+  append_field(text, "yaw_rad", pose.yaw_rad());
+  text += '}';
+}
+
+void append_ranges(std::string& text, const std::vector<float>& ranges_m) {
+  text += '[';
+  for (std::size_t beam = 0; beam < ranges_m.size(); ++beam) {
+    text += beam > 0 ? "," : "";
+    if (std::isfinite(ranges_m[beam])) {
+      append_number(text, ranges_m[beam]);
+    } else {
+      text += "null";
+    }
+  }
+  text += ']';
+}
+
+}  // namespace
+
+RunFile read_json_lines(LineReader& lines, const RunReading& reading) {
+  RunFile file;
+  file.notes = for_each_whole_line(lines, reading, [&](std::string_view line, const Place& place) {
+    if (line.find_first_not_of(" \t") == std::string_view::npos) {
+      return;
+    }
+    RunStep step = read_step(line, place);
+    step.scan.max_range_m = reading.max_range_m.value_or(step.scan.max_range_m);
+    expect_order_of_time(file.run.steps, step.scan.time_s, place);
+    file.run.steps.push_back(std::move(step));
+  });
+  if (file.run.steps.empty()) {
+    fail({.file = lines.place().file}, "steps: expected one JSON object per line, found none");
+  }
+  return file;
+}
+
+}  // namespace detail
+
+RunFile read_jsonl(const std::filesystem::path& log, const RunReading& reading) {
+  validate(reading);
+  detail::LineReader lines(log, detail::text_limits(reading));
+  return detail::read_json_lines(lines, reading);
+}
+
+RunStep parse_json_step(std::string_view line, const std::filesystem::path& source,
+                        std::size_t line_number) {
+  return detail::read_step(line, {.file = source, .line = line_number});
+}
+
+std::string json_line(const RunStep& step) {
+  using detail::append_field;
+  const Scan& scan = step.scan;
+  std::string text = "{";
+  append_field(text, "time_s", scan.time_s);
+  text += ",\"odometry\":";
+  detail::append_pose(text, step.odom_from_robot);
+  text += ",\"scan\":{";
+  append_field(text, "first_angle_rad", scan.first_angle_rad);
+  text += ',';
+  append_field(text, "angle_step_rad", scan.angle_step_rad);
+  text += ',';
+  append_field(text, "min_range_m", scan.min_range_m);
+  text += ',';
+  append_field(text, "max_range_m", scan.max_range_m);
+  text += ",\"robot_from_laser\":";
+  detail::append_pose(text, scan.robot_from_laser);
+  text += ",\"ranges_m\":";
+  detail::append_ranges(text, scan.ranges_m);
+  text += "}}";
+  return text;
+}
+
+void write_jsonl(const std::filesystem::path& log, const Run& run) {
+  std::string text;
+  for (const RunStep& step : run.steps) {
+    text += json_line(step);
+    text += '\n';
+  }
+  write_atomically(log, text);
+}
+
+}  // namespace sketchloc
