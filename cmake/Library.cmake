@@ -12,7 +12,8 @@ function(sketchloc_library name)
   set(target sketchloc_${name})
   add_library(${target} STATIC ${ARG_SOURCES})
   add_library(sketchloc::${name} ALIAS ${target})
-  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
+                                             CXX_EXTENSIONS OFF)
   target_compile_features(${target} PUBLIC cxx_std_20)
   target_include_directories(
     ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
@@ -27,6 +28,7 @@ function(sketchloc_test folder)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
   set(target ${folder}_test)
   add_executable(${target} ${ARG_SOURCES})
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
   target_link_libraries(${target} PRIVATE ${ARG_LINK} sketchloc_test_support GTest::gmock
                                           GTest::gtest_main)
   sketchloc_warnings(${target})

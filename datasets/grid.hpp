@@ -71,9 +71,14 @@ class Grid {
   std::vector<T> cells_;
 };
 
-/// The cell that holds a point given in cell units; check contains() before use.
+/// The cell that holds a point in cell units; check contains() before use. Points too far for an
+/// int, and NaN, give a cell outside every grid.
 inline Cell cell_at(const Eigen::Vector2d& point) {
-  return {static_cast<int>(std::floor(point.x())), static_cast<int>(std::floor(point.y()))};
+  const auto index = [](double coordinate) {
+    constexpr double kFar = 1 << 30;
+    return std::abs(coordinate) < kFar ? static_cast<int>(std::floor(coordinate)) : -1;
+  };
+  return {index(point.x()), index(point.y())};
 }
 
 inline Eigen::Vector2d centre_of(const Cell& cell) { return {cell.column + 0.5, cell.row + 0.5}; }

@@ -42,7 +42,10 @@ Rng make_rng(std::uint64_t seed, std::uint64_t step, std::uint64_t chunk) {
 
 double uniform(Rng& rng) { return static_cast<double>(rng() >> 11) * 0x1.0p-53; }
 
-double uniform(double low, double high, Rng& rng) { return low + (high - low) * uniform(rng); }
+double uniform(double low, double high, Rng& rng) {
+  const double value = low + (high - low) * uniform(rng);
+  return value < high ? value : low;  // the sum may round up to the open end
+}
 
 double gaussian(double sigma, Rng& rng) {
   std::normal_distribution<double> distribution;  // local: a kept spare value would leak state

@@ -23,6 +23,8 @@ Se2 Se2::exp(const Eigen::Vector3d& twist) {
   return pose;
 }
 
+double Se2::yaw_rad() const { return detail::angle_rad(rotation_); }
+
 Eigen::Matrix2d Se2::rotation_matrix() const { return detail::multiplication_matrix(rotation_); }
 
 Se2 Se2::inverse() const {

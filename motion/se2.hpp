@@ -17,7 +17,7 @@ class Se2 {
 
   double x_m() const { return translation_.x(); }
   double y_m() const { return translation_.y(); }
-  double yaw_rad() const { return std::arg(rotation_); }
+  double yaw_rad() const;  ///< in (-pi, pi]
   const Eigen::Vector2d& translation() const { return translation_; }
   Eigen::Matrix2d rotation_matrix() const;
 

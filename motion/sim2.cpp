@@ -29,6 +29,8 @@ Sim2 Sim2::exp(const Eigen::Vector4d& twist) {
   return result;
 }
 
+double Sim2::yaw_rad() const { return detail::angle_rad(scaled_rotation_); }
+
 Eigen::Matrix2d Sim2::scaled_rotation_matrix() const {
   return detail::multiplication_matrix(scaled_rotation_);
 }
@@ -41,7 +43,7 @@ Sim2 Sim2::inverse() const {
 }
 
 Eigen::Vector4d Sim2::log() const {
-  const std::complex<double> w = std::log(scaled_rotation_);
+  const std::complex<double> w(std::log(scale()), yaw_rad());
   const Eigen::Vector2d velocity = to_vector(to_complex(translation_) / exp_quotient(w));
   return {velocity.x(), velocity.y(), w.imag(), w.real()};
 }

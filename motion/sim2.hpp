@@ -22,7 +22,7 @@ class Sim2 {
 
   double x() const { return translation_.x(); }
   double y() const { return translation_.y(); }
-  double yaw_rad() const { return std::arg(scaled_rotation_); }
+  double yaw_rad() const;  ///< in (-pi, pi]
   double scale() const { return std::abs(scaled_rotation_); }
   const Eigen::Vector2d& translation() const { return translation_; }
   Eigen::Matrix2d scaled_rotation_matrix() const;

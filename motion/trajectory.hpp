@@ -48,17 +48,18 @@ using SketchTrajectory = Trajectory<Sim2>;
 extern template class Trajectory<Se2>;
 extern template class Trajectory<Sim2>;
 
-/// Index pairs (first, second) of poses nearest in time, at most max_gap_s apart, each used once.
+/// Index pairs (first, second) of times that lie closest together, at most max_gap_s apart, each
+/// used once, closest pairs first served. Checks that neither list decreases.
 std::vector<std::pair<std::size_t, std::size_t>> match_by_time(std::span<const double> first_s,
                                                                std::span<const double> second_s,
                                                                double max_gap_s);
 
 /// The rigid motion that takes `from` onto `to` with the least squared error, in closed form.
-/// Needs at least one pair of points; one pair or coincident points give a pure translation.
-/// [Umeyama91]
+/// Needs at least one pair of points; where nothing tells the turn (one pair, coincident points,
+/// mirror images) it is a pure translation. [Umeyama91]
 Se2 align_se2(std::span<const Eigen::Vector2d> from, std::span<const Eigen::Vector2d> to);
 
-/// The same with a uniform scale; none where `from` is a single place. [Umeyama91]
+/// The same with a uniform scale; none where nothing tells the turn. [Umeyama91]
 std::optional<Sim2> align_sim2(std::span<const Eigen::Vector2d> from,
                                std::span<const Eigen::Vector2d> to);
 

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <complex>
+#include <numbers>
 
 namespace sketchloc::detail {
 
@@ -13,6 +14,12 @@ inline Eigen::Matrix2d multiplication_matrix(const std::complex<double>& z) {
   Eigen::Matrix2d matrix;
   matrix << z.real(), -z.imag(), z.imag(), z.real();
   return matrix;
+}
+
+/// The argument in (-pi, pi]; std::arg alone gives -pi just below the negative real axis.
+inline double angle_rad(const std::complex<double>& z) {
+  const double angle = std::arg(z);
+  return angle <= -std::numbers::pi ? std::numbers::pi : angle;
 }
 
 /// (e^w - 1) / w, the translation part of the exponential maps of SE(2) (w = i yaw) and Sim(2)

@@ -1,18 +1,23 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
+#include <type_traits>
 
 namespace sketchloc::testing {
 
-/// Central differences of a map of the plane: the independent answer for a Jacobian.
-inline Eigen::Matrix2d numeric_jacobian(
-    const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& map, const Eigen::Vector2d& point,
-    double step = 1e-5) {
-  Eigen::Matrix2d jacobian;
-  for (int axis = 0; axis < 2; ++axis) {
-    const Eigen::Vector2d offset = step * Eigen::Vector2d::Unit(axis);
-    jacobian.col(axis) = (map(point + offset) - map(point - offset)) / (2.0 * step);
+/// Central differences of a function R^N -> R^M at a point, the independent answer for a Jacobian;
+/// column j is the derivative along component j. The function returns a vector, not an expression.
+template <typename Function, int N>
+auto numeric_jacobian(const Function& function, const Eigen::Matrix<double, N, 1>& point,
+                      double step = 1e-5) {
+  using Point = Eigen::Matrix<double, N, 1>;
+  using Value = std::remove_cvref_t<std::invoke_result_t<Function, const Point&>>;
+  Eigen::Matrix<double, Value::RowsAtCompileTime, N> jacobian;
+  for (int j = 0; j < N; ++j) {
+    const Point offset = step * Point::Unit(j);
+    const Value ahead = function(point + offset);
+    const Value behind = function(point - offset);
+    jacobian.col(j) = (ahead - behind) / (2.0 * step);
   }
   return jacobian;
 }
