@@ -35,6 +35,7 @@ void validate(const MatchedOdometryParams& params) {
   validate(params.wheels.noise);
   require_above("floor_m", params.wheels.floor_m, 0.0);
   require_above("floor_rad", params.wheels.floor_rad, 0.0);
+  require_above("merge_cell_m", params.merge_cell_m, 0.0);
   require_above("search_radius_m", params.search_radius_m, 0.0);
   require_above("keyframe_way_m", params.keyframe_way_m, 0.0);
   require_above("keyframe_turn_rad", params.keyframe_turn_rad, 0.0);
@@ -45,6 +46,7 @@ void validate(const MatchedOdometryParams& params) {
 MatchedOdometry::MatchedOdometry(const MatchedOdometryParams& params)
     : params_((validate(params), params)),
       search_(params.search),
+      merger_(params.merge_cell_m),
       submap_(params.search_radius_m) {}
 
 MatchedStep MatchedOdometry::step(const Scan& scan, const Se2& raw_odom_from_robot) {
@@ -135,8 +137,9 @@ void MatchedOdometry::rebuild_submap() {
           {keyframe.odom_from_robot * surface.point, rotation * surface.normal});
     }
   }
-  submap_.refill(submap_points_in_odom_);
-  submap_grid_.refill(submap_points_in_odom_, params_.search);
+  const std::span<const SurfacePoint> merged_in_odom = merger_.merge(submap_points_in_odom_);
+  submap_.refill(merged_in_odom);
+  submap_grid_.refill(merged_in_odom, params_.search);
 }
 
 }  // namespace sketchloc

@@ -9,6 +9,7 @@
 #include "registration/pose_search.hpp"
 #include "registration/scan_matcher.hpp"
 #include "registration/surface_map.hpp"
+#include "registration/surface_merge.hpp"
 #include "registration/surface_points.hpp"
 
 namespace sketchloc {
@@ -28,11 +29,12 @@ struct MatchedOdometryParams {
   PoseSearchParams search;
   ScanMatchParams match;
   WheelPrior wheels;
-  double search_radius_m = 0.3;    ///< reach of the nearest-neighbour look-up, > 0
-  double keyframe_way_m = 0.3;     ///< a scan this far from the last keyframe is a new one, > 0
-  double keyframe_turn_rad = 0.2;  ///< or turned by this much, > 0
-  int max_keyframes = 20;          ///< kept in the submap, >= 1
-  double submap_radius_m = 10.0;   ///< keyframes farther from the robot are dropped, > 0
+  double merge_cell_m = 0.06;      ///< points of the submap are merged within this, > 0
+  double search_radius_m = 0.2;    ///< reach of the nearest-neighbour look-up, > 0
+  double keyframe_way_m = 0.4;     ///< a scan this far from the last keyframe is a new one, > 0
+  double keyframe_turn_rad = 0.4;  ///< or turned by this much, > 0
+  int max_keyframes = 80;          ///< kept in the submap, >= 1
+  double submap_radius_m = 15.0;   ///< keyframes farther from the robot are dropped, > 0
 };
 
 /// Throws std::invalid_argument naming the field, its range and its value.
@@ -84,6 +86,7 @@ class MatchedOdometry {
   Se2 odom_from_robot_;
   std::deque<Keyframe> keyframes_;
   std::vector<SurfacePoint> submap_points_in_odom_;
+  SurfaceMerger merger_;
   SurfaceMap submap_;
   SurfaceGrid submap_grid_;
 };

@@ -16,11 +16,11 @@ struct SurfacePoint {
 
 /// How surfaces are read out of a scan.
 struct SurfaceParams {
-  double max_range_m = 30.0;    ///< farther end points are left out, > 0
-  double spacing_m = 0.06;      ///< denser end points are thinned to this distance, >= 0
-  double support_m = 0.15;      ///< neighbours this near give the normal, > 0; grows with range
-  double max_gap_beams = 3.0;   ///< support of far points, in distances between beams, > 0
-  double max_roughness = 0.25;  ///< thickness by length of the support of a surface, in (0, 1]
+  double max_range_m = 30.0;   ///< farther end points are left out, > 0
+  double spacing_m = 0.06;     ///< denser end points are thinned to this distance, >= 0
+  double support_m = 0.15;     ///< neighbours this near give the normal, > 0; grows with range
+  double max_gap_beams = 3.0;  ///< support of far points, in distances between beams, > 0
+  double max_roughness = 0.6;  ///< thickness by length of the support of a surface, in (0, 1]
 };
 
 /// Throws std::invalid_argument naming the field, its range and its value.
