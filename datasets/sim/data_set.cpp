@@ -1,0 +1,98 @@
+#include "datasets/sim/data_set.hpp"
+
+#include <stdexcept>
+
+namespace sketchloc {
+namespace {
+
+/// Each part draws from an engine of its own, so that changing one leaves the others as they were.
+enum Part : std::uint64_t { kPlan, kDrawing, kDrive, kLidar, kOdometry };
+
+constexpr std::uint64_t kAttempts = 20;
+
+Run measure(const Building& building, const MetricTrajectory& world_from_robot,
+            const DataSetParams& params, std::uint64_t seed) {
+  const LidarSimulator lidar(building.map, params.lidar);
+  Rng odometry_rng = make_rng(seed, kOdometry);
+  const OdometrySimulator odometry(params.odometry, odometry_rng);
+  Run run;
+  Se2 odom_from_robot;
+  for (std::size_t step = 0; step < world_from_robot.size(); ++step) {
+    if (step > 0) {
+      const Se2 robot_from_next =
+          world_from_robot[step - 1].pose.inverse() * world_from_robot[step].pose;
+      odom_from_robot = odom_from_robot * odometry.measured(robot_from_next, odometry_rng);
+    }
+    Rng lidar_rng = make_rng(seed, kLidar, step);
+    const Stamped<Se2>& truth = world_from_robot[step];
+    run.steps.push_back({.scan = lidar.scan(truth.pose, truth.time_s, lidar_rng),
+                         .odom_from_robot = odom_from_robot});
+  }
+  return run;
+}
+
+Reference true_reference(const Drawing& drawing, const MetricTrajectory& world_from_robot) {
+  Reference reference;
+  for (std::size_t step = 0; step < world_from_robot.size(); ++step) {
+    const Stamped<Se2>& truth = world_from_robot[step];
+    const Sim2 sketch_from_robot = drawing.sketch_from_world.sketch_from_robot(truth.pose);
+    reference.poses.push_back(
+        {.step = step,
+         .time_s = truth.time_s,
+         .sketch_from_robot = sketch_from_robot,
+         .scored = drawing.sketch.occupied.contains(cell_at(sketch_from_robot.translation()))});
+  }
+  return reference;
+}
+
+Drawing make_drawing(const Building& building, const DataSetParams& params, std::uint64_t seed) {
+  if (!params.person) {
+    return true_map(building);
+  }
+  Rng rng = make_rng(seed, kDrawing);
+  return draw(building.plan, *params.person, rng);
+}
+
+}  // namespace
+
+void validate(const DataSetParams& params) {
+  if (params.person) {
+    validate(*params.person);
+  }
+  validate(params.drive);
+  validate(params.lidar);
+  validate(params.odometry);
+}
+
+std::optional<DataSet> generate_data_set(const Building& building, const DataSetParams& params,
+                                         std::uint64_t seed) {
+  validate(params);
+  Rng drive_rng = make_rng(seed, kDrive);
+  Drive drive = drive_through(building, params.drive, drive_rng);
+  if (drive.status != Drive::Status::Driven) {
+    return std::nullopt;
+  }
+  Drawing drawing = make_drawing(building, params, seed);
+  Run run = measure(building, drive.world_from_robot, params, seed);
+  Reference reference = true_reference(drawing, drive.world_from_robot);
+  return DataSet{.building = building,
+                 .drawing = std::move(drawing),
+                 .world_from_robot = std::move(drive.world_from_robot),
+                 .run = std::move(run),
+                 .reference = std::move(reference)};
+}
+
+DataSet generate_data_set(const DataSetParams& params, std::uint64_t seed) {
+  for (std::uint64_t attempt = 0; attempt < kAttempts; ++attempt) {
+    Rng plan_rng = make_rng(seed, kPlan, attempt);
+    const Building building = building_from_plan(make_plan(params.building, plan_rng));
+    std::optional<DataSet> data_set = generate_data_set(building, params, seed);
+    if (data_set) {
+      return *std::move(data_set);
+    }
+  }
+  throw std::runtime_error("no building was found that the robot can drive through; " +
+                           std::string("make drive.robot_radius_m smaller"));
+}
+
+}  // namespace sketchloc

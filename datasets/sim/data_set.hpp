@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "datasets/reference.hpp"
+#include "datasets/run.hpp"
+#include "datasets/sim/building.hpp"
+#include "datasets/sim/drive.hpp"
+#include "datasets/sim/lidar_model.hpp"
+#include "datasets/sim/odometry_model.hpp"
+#include "datasets/sim/person.hpp"
+#include "datasets/sim/plan_generators.hpp"
+
+namespace sketchloc {
+
+struct DataSetParams {
+  BuildingKind building = BuildingKind::Office;         ///< not used where a building is given
+  std::optional<PersonParams> person = human_person();  ///< none: the drawing is the true map
+  DriveParams drive{};
+  LidarModel lidar{};
+  OdometryModel odometry{};
+};
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const DataSetParams& params);
+
+/// A building, somebody's drawing of it, and a robot's drive through it with its truth.
+struct DataSet {
+  Building building;
+  Drawing drawing;
+  MetricTrajectory world_from_robot;  ///< true pose of every step of the run
+  Run run;                            ///< what the robot measured
+  Reference reference;                ///< where it truly is in the drawing, exact, every step
+};
+
+/// Everything from one seed: the same seed gives the same data set, bit for bit.
+DataSet generate_data_set(const DataSetParams& params, std::uint64_t seed);
+
+/// The same in a given building. None where the robot cannot drive from room to room there.
+std::optional<DataSet> generate_data_set(const Building& building, const DataSetParams& params,
+                                         std::uint64_t seed);
+
+}  // namespace sketchloc

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "motion/odometry.hpp"
+#include "motion/random.hpp"
+#include "motion/se2.hpp"
+
+namespace sketchloc {
+
+/// Wheel odometry as it is: errors that stay the same for a whole run, and noise on top.
+struct OdometryModel {
+  double length_bias_sigma = 0.03;  ///< relative error of driven lengths per run, 1-sigma, >= 0
+  double turn_bias_sigma_rad_per_m = 0.01;  ///< heading drift per metre, per run, 1-sigma, >= 0
+  double turn_bias_sigma = 0.03;            ///< relative error of turns per run, 1-sigma, >= 0
+  OdometryNoise noise = {.slip_m_per_m = 0.04,
+                         .slip_m_per_rad = 0.01,
+                         .turn_rad_per_m = 0.015,
+                         .turn_rad_per_rad = 0.04};
+};
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const OdometryModel& odometry);
+
+/// The odometry of one run: its biases are drawn once, when it is made.
+class OdometrySimulator {
+ public:
+  OdometrySimulator(const OdometryModel& model, Rng& rng);
+
+  /// The increment that the wheels report for a true one.
+  Se2 measured(const Se2& robot_from_next, Rng& rng) const;
+
+ private:
+  OdometryNoise noise_;
+  double length_factor_;
+  double turn_rad_per_m_;
+  double turn_factor_;
+};
+
+}  // namespace sketchloc

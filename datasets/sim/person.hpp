@@ -1,0 +1,71 @@
+#pragma once
+
+#include "datasets/sim/building.hpp"
+#include "datasets/sim/deformation.hpp"
+#include "datasets/sketch.hpp"
+#include "motion/random.hpp"
+
+namespace sketchloc {
+
+/// How a person gets places and sizes wrong. Log sigmas are of factors: 0.3 means a third.
+struct DistortionParams {
+  double px_per_m = 18.0;              ///< median of drawings, > 0
+  double px_per_m_log_sigma = 0.15;    ///< between drawings, >= 0
+  double tilt_sigma_rad = 0.05;        ///< of the whole drawing against the axes, >= 0
+  double turned_share = 0.5;           ///< drawings turned by 90, 180 or 270 deg, in [0, 1]
+  double proportion_log_sigma = 0.15;  ///< of the whole drawing's width against its height, >= 0
+  double room_log_sigma = 0.35;        ///< of each room's width and of its depth, >= 0
+  double corridor_log_mean = 0.2;      ///< corridors are drawn wider than they are
+  double corridor_log_sigma = 0.3;     ///< of each corridor's width, >= 0
+  double room_shear_sigma = 0.1;       ///< slope of lines that should be at right angles, >= 0
+  double straightness = 20.0;          ///< weight of keeping walls straight against room sizes, > 0
+  double evenness = 0.3;               ///< weight of keeping rows in line elsewhere, > 0
+  double bend_share = 0.02;            ///< spline displacement over the building's size, >= 0
+};
+
+/// How a person moves the pen and what is left out.
+struct PenParams {
+  double min_stroke_px = 1.0;      ///< the pen's width is drawn once per drawing, >= 1
+  double max_stroke_px = 5.0;      ///< >= min_stroke_px
+  double wobble_px = 1.2;          ///< sideways error along a stroke, 1-sigma, >= 0
+  double wobble_length_px = 35.0;  ///< way over which it changes, > 0
+  double end_error_px = 3.0;       ///< strokes that end too early or too late, 1-sigma, >= 0
+  double rounding_px = 5.0;        ///< corners drawn in one go are rounded this much, >= 0
+  double one_go_share = 0.5;       ///< corners drawn without lifting the pen, in [0, 1]
+  double doubled_share = 0.03;     ///< strokes drawn twice, in [0, 1]
+  double thick_wall_share = 0.04;  ///< walls drawn as an outline, in [0, 1]
+  double thick_wall_m = 0.6;       ///< mean width of such an outline, > 0
+  double left_out_share = 0.03;    ///< inner walls not drawn, in [0, 1]
+  double shut_door_share = 0.06;   ///< doors drawn shut, in [0, 1]
+  double door_log_sigma = 0.3;     ///< of the width of door gaps, >= 0
+  double furniture_share = 0.02;   ///< of the furniture that is drawn, in [0, 1]
+  double max_margin_px = 60.0;     ///< empty paper around the drawing, >= 0
+};
+
+struct PersonParams {
+  DistortionParams distortion;
+  PenParams pen;
+};
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const PersonParams& person);
+
+/// People who draw as measured on real drawings (docs/results/simulator.md).
+PersonParams human_person();
+
+/// The training drawings of [Chen20]: the exact plan under one random thin plate spline.
+PersonParams tps_person();
+
+/// A drawing with its truth.
+struct Drawing {
+  Sketch sketch;
+  Deformation sketch_from_world{};
+};
+
+/// A person's drawing of a building.
+Drawing draw(const FloorPlan& plan, const PersonParams& person, Rng& rng);
+
+/// The building's true map as a drawing: one px per cell, with the furniture, px_per_m known.
+Drawing true_map(const Building& building);
+
+}  // namespace sketchloc
