@@ -1,0 +1,105 @@
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "filter/beam_kernel.hpp"
+#include "tests/support/grids.hpp"
+#include "tests/support/particle_cloud.hpp"
+#include "tests/support/scalar_beam_model.hpp"
+
+namespace sketchloc {
+namespace {
+
+constexpr double kScale = 20.0;
+
+std::vector<Beam> scan(std::int64_t beams) {
+  std::vector<Beam> scan;
+  for (std::int64_t i = 0; i < beams; ++i) {
+    const float share = static_cast<float>(i) / static_cast<float>(beams);
+    scan.push_back({.bearing_rad = std::numbers::pi_v<float> * (share - 0.5F),
+                    .range_m = 1.0F + 6.0F * std::abs(std::sin(9.0F * share)),
+                    .returned = i % 16 != 5});
+  }
+  return scan;
+}
+
+Grid<std::uint8_t> drawing(std::int64_t size) {
+  return testing::thin_strokes(static_cast<int>(size), static_cast<int>(size),
+                               static_cast<int>(size) / 10, 1);
+}
+
+testing::ParticleCloud cloud(std::int64_t particles, std::int64_t size, bool spread) {
+  const int side = static_cast<int>(size);
+  const double middle = 0.5 * static_cast<double>(size);
+  const auto count = static_cast<std::size_t>(particles);
+  return spread ? testing::spread_cloud(count, side, side, kScale, 1)
+                : testing::tracking_cloud(count, middle, middle, kScale, 1);
+}
+
+void count_rays(benchmark::State& state, std::int64_t rays_per_iteration) {
+  state.counters["rays"] = benchmark::Counter(
+      static_cast<double>(rays_per_iteration * state.iterations()), benchmark::Counter::kIsRate);
+}
+
+/// Arguments: particles, beams, side of the drawing, spread (1) or tracking (0).
+void ByTraversal(benchmark::State& state) {
+  const Grid<std::uint8_t> occupied = drawing(state.range(2));
+  const auto particles = cloud(state.range(0), state.range(2), state.range(3) != 0);
+  const std::vector<Beam> beams = scan(state.range(1));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        testing::score_by_traversal(occupied, {}, particles.view(), beams, 1000.0));
+  }
+  count_rays(state, state.range(0) * state.range(1));
+}
+BENCHMARK(ByTraversal)
+    ->Args({2000, 60, 1000, 1})
+    ->Args({2000, 60, 1000, 0})
+    ->Unit(benchmark::kMicrosecond);
+
+void Score(benchmark::State& state) {
+  const RangeTable table(drawing(state.range(2)));
+  const BeamKernel kernel(table, BeamKernelParams{});
+  const auto particles = cloud(state.range(0), state.range(2), state.range(3) != 0);
+  PreparedBeams beams;
+  kernel.prepare(scan(state.range(1)), beams);
+  std::vector<float> scores(particles.view().size());
+  for (auto _ : state) {
+    kernel.score(particles.view(), beams, scores);
+    benchmark::DoNotOptimize(scores.data());
+    benchmark::ClobberMemory();
+  }
+  count_rays(state, state.range(0) * state.range(1));
+}
+BENCHMARK(Score)
+    ->Args({2000, 60, 1000, 1})
+    ->Args({2000, 60, 1000, 0})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(Score)
+    ->ArgsProduct({{10000}, {60}, {400, 1000, 2000}, {1, 0}})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(Score)
+    ->ArgsProduct({{500, 1000, 4000, 8000, 16000}, {60}, {1000}, {1}})
+    ->Unit(benchmark::kMicrosecond);
+BENCHMARK(Score)
+    ->ArgsProduct({{2000}, {30, 64, 128, 180, 360, 720}, {1000}, {1}})
+    ->Unit(benchmark::kMicrosecond);
+
+void Prepare(benchmark::State& state) {
+  const RangeTable table(drawing(100));
+  const BeamKernel kernel(table, BeamKernelParams{});
+  const std::vector<Beam> beams = scan(state.range(0));
+  PreparedBeams prepared;
+  for (auto _ : state) {
+    kernel.prepare(beams, prepared);
+    benchmark::DoNotOptimize(prepared);
+  }
+}
+BENCHMARK(Prepare)->Arg(60)->Arg(360);
+
+}  // namespace
+}  // namespace sketchloc
