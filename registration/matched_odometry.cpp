@@ -1,8 +1,10 @@
 #include "registration/matched_odometry.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <optional>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <utility>
 
 #include "motion/validate.hpp"
@@ -14,6 +16,23 @@ Eigen::Vector3d wheel_sigma(const Se2& raw_increment, const WheelPrior& wheels) 
   const Eigen::Vector3d floor(wheels.floor_m, wheels.floor_m, wheels.floor_rad);
   return (increment_sigma(raw_increment, wheels.noise).array().square() + floor.array().square())
       .sqrt();
+}
+
+/// Covariance of the best match, widened by other matches that explain the scan nearly as well:
+/// second moment of the mixture about the best.
+Eigen::Matrix3d covariance_with_rivals(std::span<const ScanMatch> matches,
+                                       const Eigen::Matrix3d& prior_information) {
+  const ScanMatch& best = matches.front();
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  double weights = 0.0;
+  for (const ScanMatch& match : matches) {
+    const double weight = std::exp(0.5 * (best.cost - match.cost));
+    const Eigen::Vector3d offset = (best.odom_from_robot.inverse() * match.odom_from_robot).log();
+    const Eigen::Matrix3d covariance = (match.scan_information + prior_information).inverse();
+    sum += weight * (covariance + offset * offset.transpose());
+    weights += weight;
+  }
+  return sum / weights;
 }
 
 /// Whether the prior weighs more than the scan in some direction.
@@ -47,7 +66,8 @@ MatchedOdometry::MatchedOdometry(const MatchedOdometryParams& params)
     : params_((validate(params), params)),
       search_(params.search),
       merger_(params.merge_cell_m),
-      submap_(params.search_radius_m) {}
+      submap_(params.search_radius_m),
+      submap_grid_(params.search) {}
 
 MatchedStep MatchedOdometry::step(const Scan& scan, const Se2& raw_odom_from_robot) {
   std::vector<SurfacePoint> points_in_robot = surface_points_in_robot(scan, params_.surface);
@@ -70,39 +90,48 @@ MatchedStep MatchedOdometry::step(const Scan& scan, const Se2& raw_odom_from_rob
 MatchedStep MatchedOdometry::match(const std::vector<SurfacePoint>& points_in_robot,
                                    const Se2& raw_increment) {
   const Eigen::Vector3d sigma = wheel_sigma(raw_increment, params_.wheels);
-  const Eigen::Matrix3d prior_information = sigma.array().square().inverse().matrix().asDiagonal();
-  const PosePrior prior{odom_from_robot_ * raw_increment, prior_information};
-
-  std::optional<ScanMatch> best;
-  for (const PoseCandidate& candidate :
-       search_.search(points_in_robot, submap_grid_, prior.odom_from_robot, sigma)) {
-    const ScanMatch match =
-        match_scan(points_in_robot, submap_, prior, candidate.odom_from_robot, params_.match);
-    if (!best || match.cost < best->cost) {
-      best = match;
-    }
-  }
+  const Eigen::Vector3d variance = sigma.array().square();
+  const PosePrior prior{odom_from_robot_ * raw_increment,
+                        variance.cwiseInverse().asDiagonal().toDenseMatrix()};
+  const std::vector<ScanMatch> matches = solve(points_in_robot, prior, sigma);
 
   MatchedStep step{.status = MatchedStep::Status::TooFewPoints,
                    .odom_from_robot = prior.odom_from_robot,
                    .previous_from_robot = raw_increment,
-                   .covariance = sigma.array().square().matrix().asDiagonal()};
-  if (!best || best->status == ScanMatch::Status::TooFewPoints) {
+                   .covariance = variance.asDiagonal()};
+  if (matches.empty()) {
     return step;
   }
-  step.matched_share = best->matched_share;
-  if (best->matched_share < params_.match.min_matched_share) {
+  const ScanMatch& best = matches.front();
+  step.matched_share = best.matched_share;
+  if (best.matched_share < params_.match.min_matched_share) {
     step.status = MatchedStep::Status::Rejected;
     return step;
   }
-  step.status = prior_decides_somewhere(best->scan_information, sigma)
+  step.status = prior_decides_somewhere(best.scan_information, sigma)
                     ? MatchedStep::Status::Degenerate
                     : MatchedStep::Status::Matched;
-  step.odom_from_robot = best->odom_from_robot;
-  step.previous_from_robot = odom_from_robot_.inverse() * best->odom_from_robot;
-  step.covariance =
-      (best->scan_information + prior_information).ldlt().solve(Eigen::Matrix3d::Identity());
+  step.odom_from_robot = best.odom_from_robot;
+  step.previous_from_robot = odom_from_robot_.inverse() * best.odom_from_robot;
+  step.covariance = covariance_with_rivals(matches, prior.information);
   return step;
+}
+
+std::vector<ScanMatch> MatchedOdometry::solve(const std::vector<SurfacePoint>& points_in_robot,
+                                              const PosePrior& prior,
+                                              const Eigen::Vector3d& prior_sigma) {
+  std::vector<ScanMatch> matches;
+  for (const PoseCandidate& candidate :
+       search_.search(points_in_robot, submap_grid_, prior.odom_from_robot, prior_sigma)) {
+    const ScanMatch match =
+        match_scan(points_in_robot, submap_, prior, candidate.odom_from_robot, params_.match);
+    if (match.status != ScanMatch::Status::TooFewPoints) {
+      matches.push_back(match);
+    }
+  }
+  std::stable_sort(matches.begin(), matches.end(),
+                   [](const ScanMatch& a, const ScanMatch& b) { return a.cost < b.cost; });
+  return matches;
 }
 
 bool MatchedOdometry::keyframe_is_due() const {
@@ -139,7 +168,7 @@ void MatchedOdometry::rebuild_submap() {
   }
   const std::span<const SurfacePoint> merged_in_odom = merger_.merge(submap_points_in_odom_);
   submap_.refill(merged_in_odom);
-  submap_grid_.refill(merged_in_odom, params_.search);
+  submap_grid_.refill(merged_in_odom);
 }
 
 }  // namespace sketchloc

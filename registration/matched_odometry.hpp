@@ -75,6 +75,9 @@ class MatchedOdometry {
   };
 
   MatchedStep match(const std::vector<SurfacePoint>& points_in_robot, const Se2& raw_increment);
+  /// All matches from the candidates of the search, best first.
+  std::vector<ScanMatch> solve(const std::vector<SurfacePoint>& points_in_robot,
+                               const PosePrior& prior, const Eigen::Vector3d& prior_sigma);
   void remember(std::vector<SurfacePoint> points_in_robot);
   bool keyframe_is_due() const;
   void rebuild_submap();

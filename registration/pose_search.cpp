@@ -83,10 +83,19 @@ void validate(const PoseSearchParams& params) {
   require_at_least("max_candidates", params.max_candidates, 1.0);
 }
 
-void SurfaceGrid::refill(std::span<const SurfacePoint> points_in_odom,
-                         const PoseSearchParams& params) {
+SurfaceGrid::SurfaceGrid(const PoseSearchParams& params) : params_(params) { validate(params); }
+
+std::optional<Cell> SurfaceGrid::cell_of(const Eigen::Vector2d& point_in_odom) const {
+  const Cell cell = cell_at((point_in_odom - low_corner_in_odom_) / params_.cell_m);
+  const bool inside = cell.column >= border_cells_ && cell.row >= border_cells_ &&
+                      cell.column < cells_.width() - border_cells_ &&
+                      cell.row < cells_.height() - border_cells_;
+  return inside ? std::optional(cell) : std::nullopt;
+}
+
+void SurfaceGrid::refill(std::span<const SurfacePoint> points_in_odom) {
   if (points_in_odom.empty()) {
-    grid_ = {};
+    cells_ = {};
     return;
   }
   Eigen::Vector2d low = points_in_odom.front().point;
@@ -95,16 +104,17 @@ void SurfaceGrid::refill(std::span<const SurfacePoint> points_in_odom,
     low = low.cwiseMin(surface.point);
     high = high.cwiseMax(surface.point);
   }
-  const Stamp stamp = gaussian_stamp(params.blur_m / params.cell_m);
-  // A point at most one window outside of the surfaces may be shifted by one window more.
-  margin_cells_ = half_window_cells(params.max_shift_m, params) + stamp.radius + 1;
-  const int border = 2 * margin_cells_;
-  low_corner_ = low - Eigen::Vector2d::Constant(border * params.cell_m);
-  const Eigen::Vector2d size = (high - low) / params.cell_m;
-  grid_ = Grid<std::uint8_t>(static_cast<int>(size.x()) + 1 + 2 * border,
-                             static_cast<int>(size.y()) + 1 + 2 * border);
+  const Stamp stamp = gaussian_stamp(params_.blur_m / params_.cell_m);
+  // A window around the surfaces holds the points that a shift may bring onto one; a second one
+  // keeps their shifts inside the grid.
+  border_cells_ = half_window_cells(params_.max_shift_m, params_) + stamp.radius + 1;
+  const int margin = 2 * border_cells_;
+  low_corner_in_odom_ = low - Eigen::Vector2d::Constant(margin * params_.cell_m);
+  const Eigen::Vector2d size = (high - low) / params_.cell_m;
+  cells_ = Grid<std::uint8_t>(static_cast<int>(size.x()) + 1 + 2 * margin,
+                              static_cast<int>(size.y()) + 1 + 2 * margin);
   for (const SurfacePoint& surface : points_in_odom) {
-    press(stamp, cell_at((surface.point - low_corner_) / params.cell_m), grid_);
+    press(stamp, cell_at((surface.point - low_corner_in_odom_) / params_.cell_m), cells_);
   }
 }
 
@@ -113,21 +123,18 @@ PoseSearch::PoseSearch(const PoseSearchParams& params) : params_(params) { valid
 void PoseSearch::add_up(std::span<const SurfacePoint> points_in_robot, const SurfaceGrid& surfaces,
                         const Se2& odom_from_robot, int half_window) {
   const int width = 2 * half_window + 1;
-  const Grid<std::uint8_t>& grid = surfaces.grid_;
-  const int border = surfaces.margin_cells_;
   sums_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(width), 0);
   for (const SurfacePoint& surface : points_in_robot) {
-    const Eigen::Vector2d point_in_odom = odom_from_robot * surface.point;
-    const Cell cell = cell_at((point_in_odom - surfaces.low_corner_) / params_.cell_m);
-    if (cell.column < border || cell.row < border || cell.column >= grid.width() - border ||
-        cell.row >= grid.height() - border) {
-      continue;  // far from all surfaces, wherever it is shifted
+    const std::optional<Cell> cell = surfaces.cell_of(odom_from_robot * surface.point);
+    if (!cell) {
+      continue;
     }
     std::uint32_t* sum = sums_.data();
     for (int shift = -half_window; shift <= half_window; ++shift, sum += width) {
-      const std::uint8_t* cells = grid.row(cell.row + shift).data() + (cell.column - half_window);
+      const std::uint8_t* found =
+          surfaces.cells().row(cell->row + shift).data() + (cell->column - half_window);
       for (int i = 0; i < width; ++i) {
-        sum[i] += cells[i];
+        sum[i] += found[i];
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,7 @@ namespace sketchloc {
 struct PoseSearchParams {
   double cell_m = 0.1;             ///< shift step and cell of the look-up grid, > 0
   double heading_step_rad = 0.02;  ///< > 0
-  double min_shift_m = 0.4;        ///< narrowest half window, > 0
+  double min_shift_m = 0.6;        ///< narrowest half window, > 0
   double max_shift_m = 1.0;        ///< widest half window, at least the narrowest
   double min_turn_rad = 0.5;       ///< narrowest half window, > 0
   double max_turn_rad = 0.8;       ///< widest half window, in [min_turn_rad, pi]
@@ -35,28 +36,36 @@ struct PoseCandidate {
   double score = 0.0;
 };
 
-/// The surfaces of a submap, blurred: how well a point lies on one, 0..255.
+/// The surfaces of a submap, blurred: how well a point lies on one, 0..255 per cell. Wide enough
+/// around them for a search: a point outside of the border finds no surface however it is shifted.
 class SurfaceGrid {
  public:
-  /// Margin: room around the points, at least twice the half window of the searches to come.
-  void refill(std::span<const SurfacePoint> points_in_odom, const PoseSearchParams& params);
+  /// Throws std::invalid_argument if a parameter is out of range.
+  explicit SurfaceGrid(const PoseSearchParams& params = {});
 
-  bool empty() const { return grid_.empty(); }
+  void refill(std::span<const SurfacePoint> points_in_odom);
+
+  bool empty() const { return cells_.empty(); }
+  const Grid<std::uint8_t>& cells() const { return cells_; }
+  /// The cell of a point; none outside of the border.
+  std::optional<Cell> cell_of(const Eigen::Vector2d& point_in_odom) const;
 
  private:
-  friend class PoseSearch;
-  Eigen::Vector2d low_corner_ = Eigen::Vector2d::Zero();  // of the grid, in odom
-  int margin_cells_ = 0;
-  Grid<std::uint8_t> grid_;
+  PoseSearchParams params_;
+  Eigen::Vector2d low_corner_in_odom_ = Eigen::Vector2d::Zero();
+  int border_cells_ = 0;
+  Grid<std::uint8_t> cells_;
 };
 
 /// Scores every heading and shift around a prior pose; keeps its buffers between searches.
 class PoseSearch {
  public:
+  /// Throws std::invalid_argument if a parameter is out of range.
   explicit PoseSearch(const PoseSearchParams& params = {});
 
   /// The best local maxima over the heading, best first; at least one unless the grid or the scan
-  /// is empty. Sigma: (x m, y m, yaw rad) of the prior in the robot frame.
+  /// is empty. The grid must have the same parameters. Sigma: (x m, y m, yaw rad) of the prior in
+  /// the robot frame.
   std::vector<PoseCandidate> search(std::span<const SurfacePoint> points_in_robot,
                                     const SurfaceGrid& surfaces, const Se2& prior_odom_from_robot,
                                     const Eigen::Vector3d& prior_sigma);

@@ -14,7 +14,7 @@ struct ScanMatchParams {
   double point_sigma_m = 0.03;     ///< noise of one point across its line, > 0
   double independent_share = 0.2;  ///< share of points that count as independent, in (0, 1]
   double kernel_m = 0.1;           ///< residual at which a point loses its say, > 0
-  int min_points = 20;             ///< fewer points with a partner are no match, >= 3
+  int min_points = 10;             ///< fewer points with a partner are no match, >= 3
   double min_matched_share = 0.2;  ///< of the points, with a partner within kernel_m, in [0, 1]
   int max_iterations = 25;         ///< >= 1
   double stop_m = 1e-4;            ///< a step below this (m and rad) ends the iteration, > 0
