@@ -1,0 +1,35 @@
+#include "filter/beam_set.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/validate.hpp"
+
+namespace sketchloc {
+
+void validate(const BeamSelection& selection) {
+  require_in_range("beams", selection.beams, 1, 1024);
+  require_above("max_range_m", selection.max_range_m, 0.0);
+}
+
+void select_beams(BeamSet& beams, const Scan& scan, const BeamSelection& selection) {
+  beams.bearing_rad.clear();
+  beams.log_range.clear();
+  const auto readings = static_cast<int>(scan.ranges_m.size());
+  const int sectors = std::min(selection.beams, readings);
+  for (int sector = 0; sector < sectors; ++sector) {
+    const auto middle = static_cast<std::size_t>((2 * sector + 1) * readings / (2 * sectors));
+    const double range_m = scan.ranges_m[middle];
+    if (!scan.is_return(middle) || range_m > selection.max_range_m || range_m <= 0.0) {
+      continue;
+    }
+    const double angle_rad = scan.angle_rad(middle);
+    const Eigen::Vector2d end_in_robot =
+        scan.robot_from_laser *
+        Eigen::Vector2d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
+    beams.bearing_rad.push_back(static_cast<float>(std::atan2(end_in_robot.y(), end_in_robot.x())));
+    beams.log_range.push_back(static_cast<float>(std::log(end_in_robot.norm())));
+  }
+}
+
+}  // namespace sketchloc

@@ -1,0 +1,237 @@
+#include "filter/localizer.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "filter/detail/chunks.hpp"
+#include "motion/angles.hpp"
+#include "motion/check.hpp"
+#include "motion/validate.hpp"
+
+namespace sketchloc {
+namespace {
+
+// What an engine is for, so that no two uses share a stream.
+enum Purpose : std::uint64_t { kStart, kPredict, kResample, kCandidates, kInject, kPurposes };
+
+}  // namespace
+
+void validate(const MotionGate& gate) {
+  require_at_least("gate.way_m", gate.way_m, 0.0);
+  require_at_least("gate.turn_rad", gate.turn_rad, 0.0);
+}
+
+void validate(const StartSpread& spread) {
+  require_at_least("start.position_m", spread.position_m, 0.0);
+  require_at_least("start.heading_rad", spread.heading_rad, 0.0);
+  require_at_least("start.log_scale", spread.log_scale, 0.0);
+  require_at_least("start.log_mean_scale", spread.log_mean_scale, 0.0);
+  require_at_least("start.strain", spread.strain, 0.0);
+}
+
+void validate(const LocalizerParams& params) {
+  validate(params.predict);
+  validate(params.beams);
+  validate(params.particles);
+  validate(params.modes);
+  validate(params.gate);
+  validate(params.start);
+  validate(params.recovery);
+  validate(params.table);
+  require_in_range("resample_below", params.resample_below, 0.0, 1.0);
+  require_in_range("jobs", params.jobs, 1, 1024);
+}
+
+Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params)
+    : params_((validate(params), params)),
+      table_(sketch.occupied, params.table),
+      beam_model_(table_, params.beams),
+      anywhere_(sketch, table_),
+      mode_finder_(params.modes,
+                   std::max(params.particles.max_particles, params.recovery.candidates)),
+      evidence_(params.recovery),
+      bins_(params.particles.max_particles) {
+  const std::size_t most = std::max(params.particles.max_particles, params.recovery.candidates);
+  for (ParticleSet* set : {&particles_, &resampled_, &candidates_}) {
+    set->reserve(most);
+  }
+  scores_.resize(most);
+  parents_.resize(most);
+  report_.estimate.modes.reserve(static_cast<std::size_t>(params.modes.max_modes));
+}
+
+Localizer::~Localizer() = default;
+
+void Localizer::start_at(const Sim2& sketch_from_robot) {
+  const StartSpread& spread = params_.start;
+  particles_.resize(params_.particles.max_particles);
+  for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
+    Rng rng = make_rng(params_.seed, kStart, chunk);
+    const double position_px = spread.position_m * sketch_from_robot.scale();
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      particles_.x_px[i] = static_cast<float>(sketch_from_robot.x() + gaussian(position_px, rng));
+      particles_.y_px[i] = static_cast<float>(sketch_from_robot.y() + gaussian(position_px, rng));
+      particles_.heading_rad[i] = static_cast<float>(
+          wrap_rad(sketch_from_robot.yaw_rad() + gaussian(spread.heading_rad, rng)));
+      const double log_scale = std::log(sketch_from_robot.scale());
+      particles_.log_scale[i] = static_cast<float>(log_scale + gaussian(spread.log_scale, rng));
+      particles_.log_mean_scale[i] =
+          static_cast<float>(log_scale + gaussian(spread.log_mean_scale, rng));
+      particles_.axial_strain[i] = static_cast<float>(gaussian(spread.strain, rng));
+      particles_.diagonal_strain[i] = static_cast<float>(gaussian(spread.strain, rng));
+      particles_.log_weight[i] = 0.0F;
+    }
+  });
+}
+
+const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) {
+  check(particles_.size() > 0, "start the localizer before its first step");
+  report_.step = steps_;
+  report_.time_s = scan.time_s;
+  report_.resampled = false;
+  report_.injected_share = 0.0;
+  if (last_odom_from_robot_) {
+    predict_all(odometry_increment(*last_odom_from_robot_, odom_from_robot));
+  }
+  last_odom_from_robot_ = odom_from_robot;
+  select_beams(beams_, scan, params_.beams.selection);
+  report_.updated = gate_opens() && beams_.size() > 0;
+  if (report_.updated) {
+    weigh(scan);
+  }
+  report_.effective_particles = normalise(particles_).effective_particles;
+  report_.particles = particles_.size();
+  mode_finder_.find(particles_, report_.estimate);
+  if (report_.updated) {
+    resample_and_recover(scan);
+  }
+  ++steps_;
+  return report_;
+}
+
+bool Localizer::gate_opens() const {
+  return !updated_once_ || way_since_update_m_ >= params_.gate.way_m ||
+         turn_since_update_rad_ >= params_.gate.turn_rad;
+}
+
+void Localizer::predict_all(const Se2& robot_from_next) {
+  way_since_update_m_ += robot_from_next.translation().norm();
+  turn_since_update_rad_ += std::abs(robot_from_next.yaw_rad());
+  for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
+    Rng rng = make_rng(params_.seed, steps_ * kPurposes + kPredict, chunk);
+    predict(particles_, range, robot_from_next, params_.predict, rng);
+  });
+}
+
+void Localizer::weigh(const Scan&) {
+  for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t, ParticleRange range) {
+    beam_model_.score(particles_, range, beams_, scores_);
+  });
+  double exponent = params_.beams.exponent;
+  if (params_.beams.exponent_way_m > 0.0 && updated_once_) {
+    exponent *= std::min(
+        1.0, (way_since_update_m_ + 0.3 * turn_since_update_rad_) / params_.beams.exponent_way_m);
+  }
+  double weight_sum = 0.0;
+  double score_sum = 0.0;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    const double weight = std::exp(particles_.log_weight[i]);
+    weight_sum += weight;
+    score_sum += weight * scores_[i];
+    particles_.log_weight[i] += static_cast<float>(exponent * scores_[i]);
+  }
+  const double per_beam = score_sum / weight_sum / static_cast<double>(beams_.size());
+  evidence_.add(per_beam, way_since_update_m_ + 0.3 * turn_since_update_rad_);
+  report_.log_likelihood = per_beam;
+  way_since_update_m_ = 0.0;
+  turn_since_update_rad_ = 0.0;
+  updated_once_ = true;
+}
+
+void Localizer::resample_and_recover(const Scan& scan) {
+  if (report_.effective_particles <
+      params_.resample_below * static_cast<double>(particles_.size())) {
+    report_.resampled = true;
+    Rng rng = make_rng(params_.seed, steps_ * kPurposes + kResample);
+    const std::span<std::uint32_t> all(parents_);
+    const auto most = all.first(params_.particles.max_particles);
+    systematic_parents(particles_.log_weight, most, rng);
+    bins_.clear();
+    const double side_px = params_.particles.bin_m * report_.estimate.sketch_from_robot.scale();
+    for (const std::uint32_t parent : most) {
+      bins_.add(pose_bin(particles_.x_px[parent], particles_.y_px[parent],
+                         particles_.heading_rad[parent], side_px, params_.particles.bin_rad),
+                1.0);
+    }
+    const auto parents = all.first(kld_count(bins_.size(), params_.particles));
+    systematic_parents(particles_.log_weight, parents, rng);
+    resampled_.resize(parents.size());
+    for (std::size_t i = 0; i < parents.size(); ++i) {
+      resampled_.assign(i, particles_, parents[i]);
+      resampled_.log_weight[i] = 0.0F;
+    }
+    std::swap(particles_, resampled_);
+    const auto count = static_cast<std::size_t>(evidence_.injection_share() *
+                                                static_cast<double>(particles_.size()));
+    if (count > 0 && !anywhere_.empty()) {
+      report_.injected_share = inject(count, scan);
+    }
+  }
+}
+
+double Localizer::inject(std::size_t count, const Scan&) {
+  candidates_.resize(params_.recovery.candidates);
+  double log_mean = 0.0;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    log_mean += particles_.log_mean_scale[i];
+  }
+  const ScalePrior scale{.log_px_per_m = log_mean / static_cast<double>(particles_.size()),
+                         .sigma = 0.2};
+  for_each_chunk(candidates_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
+    Rng rng = make_rng(params_.seed, steps_ * kPurposes + kCandidates, chunk);
+    anywhere_.draw(candidates_, range, scale, params_.start.strain, rng);
+    beam_model_.score(candidates_, range, beams_, scores_);
+  });
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    candidates_.log_weight[i] =
+        static_cast<float>(params_.recovery.candidate_exponent) * scores_[i];
+  }
+  normalise(candidates_);
+  Rng rng = make_rng(params_.seed, steps_ * kPurposes + kInject);
+  const std::span<std::uint32_t> parents(parents_.data(), count);
+  systematic_parents(candidates_.log_weight, parents, rng);
+  // Systematic order is arbitrary with respect to place: an even spread of victims is unbiased.
+  const double spacing = static_cast<double>(particles_.size()) / static_cast<double>(count);
+  const double offset = uniform(rng);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto victim = static_cast<std::size_t>((static_cast<double>(k) + offset) * spacing);
+    particles_.assign(std::min(victim, particles_.size() - 1), candidates_, parents[k]);
+    particles_.log_weight[std::min(victim, particles_.size() - 1)] = 0.0F;
+  }
+  return static_cast<double>(count) / static_cast<double>(particles_.size());
+}
+
+bool Localizer::start_anywhere(const Scan& first_scan) {
+  if (anywhere_.empty()) {
+    return false;
+  }
+  double mean_square_m = 0.0;
+  int returns = 0;
+  for (std::size_t beam = 0; beam < first_scan.ranges_m.size(); ++beam) {
+    if (first_scan.is_return(beam)) {
+      mean_square_m += static_cast<double>(first_scan.ranges_m[beam]) * first_scan.ranges_m[beam];
+      ++returns;
+    }
+  }
+  const double log_visible_m = returns > 0 ? 0.5 * std::log(mean_square_m / returns) : 1.0;
+  const ScalePrior scale{.log_px_per_m = anywhere_.median_log_visible_radius() - log_visible_m,
+                         .sigma = 0.35};
+  particles_.resize(params_.particles.max_particles);
+  for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
+    Rng rng = make_rng(params_.seed, kStart, chunk);
+    anywhere_.draw(particles_, range, scale, params_.start.strain, rng);
+  });
+  return true;
+}
+
+}  // namespace sketchloc

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "datasets/scan.hpp"
+#include "datasets/sketch.hpp"
+#include "filter/beam_model.hpp"
+#include "filter/global_sampler.hpp"
+#include "filter/mode_finder.hpp"
+#include "filter/particle_set.hpp"
+#include "filter/predict.hpp"
+#include "filter/recovery.hpp"
+#include "filter/resample.hpp"
+#include "filter/step_report.hpp"
+#include "motion/odometry.hpp"
+#include "motion/se2.hpp"
+
+namespace sketchloc {
+
+/// When a scan is worth an update: the same evidence counts once.
+struct MotionGate {
+  double way_m = 0.1;      ///< since the last update, >= 0
+  double turn_rad = 0.35;  ///< or turned by this much, >= 0
+};
+void validate(const MotionGate& gate);
+
+/// Spread of the particles around a given start, 1-sigma.
+struct StartSpread {
+  double position_m = 0.5;  ///< >= 0
+  double heading_rad = 0.1;
+  double log_scale = 0.1;       ///< of the local scale there
+  double log_mean_scale = 0.3;  ///< of the drawing's mean scale against the local one
+  double strain = 0.2;
+};
+void validate(const StartSpread& spread);
+
+struct LocalizerParams {
+  PredictParams predict;
+  BeamModelParams beams;
+  KldParams particles;
+  ModeParams modes;
+  MotionGate gate;
+  StartSpread start;
+  RecoveryParams recovery;
+  RangeTableParams table;
+  double resample_below = 0.5;  ///< share of effective particles that calls for resampling, [0, 1]
+  std::uint64_t seed = 1;
+  int jobs = 1;  ///< threads; the result does not depend on it, >= 1
+};
+
+/// Throws std::invalid_argument naming the component and field, its range and its value.
+void validate(const LocalizerParams& params);
+
+/// Monte Carlo localization in a drawing: one step per scan, online. Works in the odometry it is
+/// given: refine wheel odometry first (registration/matched_odometry.hpp).
+class Localizer {
+ public:
+  /// Throws std::invalid_argument if a parameter is out of range.
+  Localizer(const Sketch& sketch, const LocalizerParams& params);
+  ~Localizer();
+
+  /// Starts at a known pose.
+  void start_at(const Sim2& sketch_from_robot);
+
+  /// Starts with nothing known; false where the drawing encloses no free space to start in.
+  bool start_anywhere(const Scan& first_scan);
+
+  /// Takes the next scan with the odometry at its instant. The report is valid until the next call.
+  const StepReport& step(const Scan& scan, const Se2& odom_from_robot);
+
+  const ParticleSet& particles() const { return particles_; }
+
+ private:
+  void predict_all(const Se2& robot_from_next);
+  void weigh(const Scan& scan);
+  void resample_and_recover(const Scan& scan);
+  double inject(std::size_t count, const Scan& scan);
+  bool gate_opens() const;
+
+  LocalizerParams params_;
+  RangeTable table_;
+  BeamModel beam_model_;
+  GlobalSampler anywhere_;
+  ModeFinder mode_finder_;
+  EvidenceMonitor evidence_;
+  BinTable bins_;
+
+  ParticleSet particles_;
+  ParticleSet resampled_;   ///< back buffer
+  ParticleSet candidates_;  ///< for recovery
+  std::vector<float> scores_;
+  std::vector<std::uint32_t> parents_;
+  BeamSet beams_;
+
+  std::optional<Se2> last_odom_from_robot_;
+  std::size_t steps_ = 0;
+  double way_since_update_m_ = 0.0;
+  double turn_since_update_rad_ = 0.0;
+  bool updated_once_ = false;
+  double log_mean_visible_m_ = 0.0;
+  std::size_t scans_seen_ = 0;
+  StepReport report_;
+};
+
+}  // namespace sketchloc

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+
+#include "filter/particle_set.hpp"
+#include "motion/odometry.hpp"
+#include "motion/random.hpp"
+
+namespace sketchloc {
+
+/// How a drawing departs from the metres driven in it, on top of the odometry's own noise. Walks
+/// are 1-sigma after one metre and grow with the square root of the way. Fitted together on the
+/// Intel and Belgioioso drawings, see docs/results/real.md.
+struct DeformationWalk {
+  double length_per_m = 0.4;     ///< error of drawn lengths along the way, >= 0
+  double shear_per_m = 0.2;      ///< the same across the way, >= 0
+  double heading_rad = 0.05;     ///< walk of the local rotation, >= 0
+  double log_scale = 0.1;        ///< walk of the local log scale, >= 0
+  double scale_memory_m = 6.0;   ///< way after which the local scale returns to its mean, > 0
+  double log_mean_scale = 0.03;  ///< walk of that mean itself, >= 0
+  double strain = 0.15;          ///< walk of either strain component, >= 0
+  double strain_memory_m = 5.0;  ///< way after which the strain returns to none, > 0
+};
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const DeformationWalk& walk);
+
+struct PredictParams {
+  OdometryNoise odometry{.slip_m_per_m = 0.02,
+                         .slip_m_per_rad = 0.01,
+                         .turn_rad_per_m = 0.01,
+                         .turn_rad_per_rad = 0.03};  ///< of the odometry as refined by matching
+  DeformationWalk deformation;
+};
+
+void validate(const PredictParams& params);
+
+/// The same for a map in true proportions: nothing deforms.
+PredictParams metric_motion();
+
+/// A run of particles [begin, end) that one engine moves.
+struct ParticleRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// Moves a range of particles by an odometry increment with noise; metres become pixels by each
+/// particle's own local map. Without motion nothing changes and nothing is drawn.
+void predict(ParticleSet& particles, const ParticleRange& range, const Se2& robot_from_next,
+             const PredictParams& params, Rng& rng);
+
+}  // namespace sketchloc

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+
+namespace sketchloc {
+
+/// Recovery of a lost robot: new particles come in where the evidence gets worse than it used to
+/// be (augmented Monte Carlo localization [Thrun05 8.3]), from poses anywhere in the drawing that
+/// fit the present scan (sensor resetting).
+struct RecoveryParams {
+  double slow_way_m = 30.0;          ///< memory of the long-term evidence, in way driven, > 0
+  double fast_way_m = 4.0;           ///< memory of the short-term evidence, > 0
+  double evidence_beams = 6.0;       ///< independent beams in a scan, for the ratio of both, > 0
+  double max_share = 0.05;           ///< of the particles replaced in one step, in [0, 0.5]
+  double base_share = 0.0;           ///< always replaced, in [0, 0.5]
+  std::size_t candidates = 4000;     ///< poses tried for each injection, >= 1
+  double candidate_exponent = 0.15;  ///< tempers the beams that choose among them, in (0, 1]
+};
+void validate(const RecoveryParams& params);
+
+/// Long- and short-term averages of the evidence per beam.
+class EvidenceMonitor {
+ public:
+  explicit EvidenceMonitor(const RecoveryParams& params);
+
+  /// Takes the mean log-likelihood per beam after driving a way.
+  void add(double log_likelihood_per_beam, double way_m);
+
+  /// The share of particles to replace, in [base_share, max_share].
+  double injection_share() const;
+
+ private:
+  RecoveryParams params_;
+  bool started_ = false;
+  double slow_ = 0.0;
+  double fast_ = 0.0;
+};
+
+}  // namespace sketchloc
