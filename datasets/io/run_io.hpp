@@ -16,7 +16,7 @@ namespace sketchloc {
 struct RunReading {
   /// Ranges from here on are no returns, in (0, inf); by default what the log says, else 80 m
   /// (a SICK LMS says 81.83 or 81.91 for "nothing there").
-  std::optional<double> max_range_m;
+  std::optional<double> max_range_m = std::nullopt;
   /// Keep the whole lines of a log that stops in the middle of a line or of its gzip stream.
   bool allow_truncated = false;
   std::size_t max_line_bytes = std::size_t{4} << 20;       ///< longer lines are an error

@@ -15,11 +15,11 @@ struct SketchReading {
     LightOnDark   ///< light strokes (or light painted free space) on a dark ground
   };
 
-  std::optional<Polarity> polarity;
-  std::optional<Sketch::Kind> kind;
+  std::optional<Polarity> polarity = std::nullopt;
+  std::optional<Sketch::Kind> kind = std::nullopt;
   /// Blobs of ink smaller than this in both directions are dirt; by default 0.3 % of the
   /// diagonal, at least 3 px. Only for strokes. In px, >= 0.
-  std::optional<double> dirt_px;
+  std::optional<double> dirt_px = std::nullopt;
   std::size_t max_pixels = 40'000'000;  ///< larger pictures are an error, > 0
 };
 
