@@ -1,0 +1,18 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace sketchloc {
+
+/// Thrown at the next safe place after Ctrl-C, so that half-made outputs are removed.
+struct Interrupted : std::runtime_error {
+  Interrupted() : std::runtime_error("interrupted; nothing was written") {}
+};
+
+/// From now on the first Ctrl-C or SIGTERM asks for a clean end, a second one ends at once.
+void catch_interrupts();
+
+/// Throws Interrupted where an end was asked for. Long loops call it now and then.
+void throw_if_interrupted();
+
+}  // namespace sketchloc

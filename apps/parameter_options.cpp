@@ -1,0 +1,31 @@
+#include "apps/parameter_options.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include "apps/program.hpp"
+
+namespace sketchloc {
+
+void add_parameter_options(CLI::App& command, const ConfigNode& defaults,
+                           ParameterOptions& options) {
+  command
+      .add_option("--config", options.config_file,
+                  "Parameters as YAML, such as run.yaml of an earlier run")
+      ->group(kAlgorithmGroup)
+      ->type_name("FILE");
+  const auto print = [text = to_yaml(defaults)] { throw CLI::CallForVersion(text, 0); };
+  command
+      .add_flag_callback("--print-parameters", print,
+                         "Print all parameters with their defaults; each is a flag too, "
+                         "such as --group.name VALUE, and wins over the file")
+      ->group(kAlgorithmGroup);
+  for (const std::string& path : value_paths(defaults)) {
+    const std::string flag = "--" + path;
+    const auto set = [&options, path, flag](const std::string& text) {
+      set_value(options.flags, path, {.text = text, .source = flag});
+    };
+    command.add_option_function<std::string>(flag, set)->group("");  // not in --help
+  }
+}
+
+}  // namespace sketchloc

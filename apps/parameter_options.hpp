@@ -1,0 +1,35 @@
+#pragma once
+
+#include <filesystem>
+
+#include "apps/config.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace sketchloc {
+
+/// What the command line says about parameters.
+struct ParameterOptions {
+  std::filesystem::path config_file;  ///< empty: none
+  ConfigNode flags;                   ///< from `--beam_model.floor 0.2`
+};
+
+/// Adds --config, --print-parameters and one flag per parameter, named by its path and kept out of
+/// --help. `options` must outlive the parsing.
+void add_parameter_options(CLI::App& command, const ConfigNode& defaults,
+                           ParameterOptions& options);
+
+/// The parameters with precedence default < --config file < flag. Unknown names, wrong types and
+/// values out of range throw std::invalid_argument with source, parameter and advice.
+template <ParameterStruct T>
+T parameters_from(const ParameterOptions& options, const T& defaults = {}) {
+  ConfigNode node = to_config(defaults);
+  if (!options.config_file.empty()) {
+    node = overlaid(node, read_config(options.config_file));
+  }
+  return from_config<T>(overlaid(node, options.flags));
+}
+
+}  // namespace sketchloc

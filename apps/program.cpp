@@ -1,0 +1,88 @@
+#include "apps/program.hpp"
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+
+#include "apps/interrupt.hpp"
+#include "apps/version.hpp"
+
+namespace sketchloc {
+namespace {
+
+constexpr int kDone = 0;
+constexpr int kDataFailed = 1;
+constexpr int kWrongUsage = 2;
+constexpr int kInterrupted = 130;  // what a shell reports after Ctrl-C
+
+void log_to_stderr() {
+  auto sink = std::make_shared<spdlog::sinks::stderr_color_sink_mt>();
+  auto logger = std::make_shared<spdlog::logger>("sketchloc", std::move(sink));
+  logger->set_pattern("%^%l%$: %v");
+  spdlog::set_default_logger(logger);
+}
+
+/// Comes last, so that its group is the last one in --help.
+void add_usability_options(CLI::App& command) {
+  command.set_help_flag("-h,--help", "Print this help and exit")->group(kUsabilityGroup);
+  const auto quiet = [] { spdlog::set_level(spdlog::level::warn); };
+  const auto verbose = [] { spdlog::set_level(spdlog::level::debug); };
+  command.add_flag_callback("-q,--quiet", quiet, "Say only what went wrong")
+      ->group(kUsabilityGroup);
+  command.add_flag_callback("-v,--verbose", verbose, "Say more")->group(kUsabilityGroup);
+}
+
+int exit_code_of(const CLI::App& program, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    program.exit(error);  // prints help or version to stdout
+    return kDone;
+  }
+  const auto chosen = program.get_subcommands();
+  const bool unknown_command = chosen.empty() && program.remaining_size() > 0;
+  const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
+  std::cerr << "sketchloc" << command << ": "
+            << (unknown_command ? "unknown command " + program.remaining().front() : error.what())
+            << "\nRun sketchloc" << command << " --help for its options.\n";
+  return kWrongUsage;
+}
+
+}  // namespace
+
+int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands) {
+  log_to_stderr();
+  catch_interrupts();
+  CLI::App program("Find a robot on a map that a person drew by hand.", "sketchloc");
+  program.set_help_flag("");
+  program.require_subcommand(1);
+  for (const AddCommand add_command : commands) {
+    add_command(program);
+  }
+  for (CLI::App* command : program.get_subcommands([](CLI::App*) { return true; })) {
+    add_usability_options(*command);
+  }
+  program.set_help_flag("-h,--help", "Print this help and exit")->group(kUsabilityGroup);
+  program.set_version_flag("--version", version_text(), "Print version and commit and exit")
+      ->group(kUsabilityGroup);
+  try {
+    program.parse(argc, argv);
+    return kDone;
+  } catch (const CLI::ParseError& error) {
+    return exit_code_of(program, error);
+  } catch (const Interrupted& error) {
+    spdlog::warn("{}", error.what());
+    return kInterrupted;
+  } catch (const std::invalid_argument& error) {
+    spdlog::error("{}", error.what());
+    return kWrongUsage;
+  } catch (const std::exception& error) {
+    spdlog::error("{}", error.what());
+    return kDataFailed;
+  }
+}
+
+}  // namespace sketchloc

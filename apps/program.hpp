@@ -1,0 +1,24 @@
+#pragma once
+
+#include <span>
+
+namespace CLI {
+class App;
+}
+
+namespace sketchloc {
+
+// The three groups of --help.
+inline constexpr char kAlgorithmGroup[] = "Algorithm";
+inline constexpr char kOutputGroup[] = "Output";
+inline constexpr char kUsabilityGroup[] = "Usability";
+
+/// Adds one subcommand with its options and a callback that does the work.
+using AddCommand = void (*)(CLI::App& program);
+
+/// Parses the command line and runs the subcommand. Messages go to stderr. Returns the exit code:
+/// 0 done, 1 the data failed (std::exception), 2 wrong usage (a wrong command line, or
+/// std::invalid_argument from a parameter), 130 interrupted.
+int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands);
+
+}  // namespace sketchloc
