@@ -50,13 +50,6 @@ std::optional<double> position_nees(const Estimate& estimate, const ReferencePos
   return nees(error_px, covariance_px);
 }
 
-double stated_sigma_m(const Estimate& estimate, const ReferencePose& accepted) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(position_covariance_px(estimate),
-                                                              Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff())) /
-         accepted.sketch_from_robot.scale();
-}
-
 StepError error_of(const StepReport& report, const ReferencePose& first,
                    const ReferencePose& accepted) {
   const Sim2& estimate = report.estimate.sketch_from_robot;
@@ -68,7 +61,7 @@ StepError error_of(const StepReport& report, const ReferencePose& first,
           .heading_rad = std::abs(wrap_rad(estimate.yaw_rad() - first.sketch_from_robot.yaw_rad())),
           .scale_ratio = estimate.scale() / reference.scale(),
           .uncertainty_m = accepted.uncertainty_m,
-          .stated_sigma_m = stated_sigma_m(report.estimate, accepted),
+          .stated_sigma_m = stated_position_sigma_m(report.estimate),
           .position_nees = position_nees(report.estimate, accepted)};
 }
 
@@ -106,6 +99,13 @@ std::vector<double> known_nees(std::span<const StepError> errors) {
 void validate(const LossDefinition& loss) {
   require_above("bound_m", loss.bound_m, 0.0);
   require_at_least("lasting_m", loss.lasting_m, 0.0);
+}
+
+double stated_position_sigma_m(const Estimate& estimate) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(position_covariance_px(estimate),
+                                                              Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues().maxCoeff())) /
+         estimate.sketch_from_robot.scale();
 }
 
 std::vector<StepError> step_errors(std::span<const StepReport> steps, const Reference& reference,

@@ -21,17 +21,20 @@ struct LossDefinition {
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const LossDefinition& loss);
 
+/// 1-sigma of the estimated position along its worst direction, in metres by the estimated scale.
+double stated_position_sigma_m(const Estimate& estimate);
+
 /// How far off the estimate of one scored step is.
 struct StepError {
   std::size_t step = 0;
   double time_s = 0.0;
   double driven_m = 0.0;  ///< along the reference since its first pose, local metres
   double translation_px = 0.0;
-  double translation_m = 0.0;   ///< by the reference's local scale
-  double heading_rad = 0.0;     ///< in [0, pi]
-  double scale_ratio = 1.0;     ///< estimated / reference local scale
-  double uncertainty_m = 0.0;   ///< 1-sigma of the reference itself; 0 if exact
-  double stated_sigma_m = 0.0;  ///< 1-sigma of the estimate's position along its worst direction
+  double translation_m = 0.0;           ///< by the reference's local scale
+  double heading_rad = 0.0;             ///< in [0, pi]
+  double scale_ratio = 1.0;             ///< estimated / reference local scale
+  double uncertainty_m = 0.0;           ///< 1-sigma of the reference itself; 0 if exact
+  double stated_sigma_m = 0.0;          ///< see stated_position_sigma_m()
   std::optional<double> position_nees;  ///< 2 degrees of freedom; the reference's variance added
 };
 
