@@ -38,6 +38,7 @@ Building building_from_plan(FloorPlan plan);
 struct MapReadingParams {
   double min_wall_m = 0.4;     ///< shorter pieces of wall are details, not lines, >= 0
   double tolerance_m = 0.08;   ///< how far a line may run from the wall's middle, > 0
+  double min_floor_m2 = 4.0;   ///< smaller free spaces are taken for solid, >= 0
   double room_size_m = 4.0;    ///< side of the pieces of floor that stand for rooms, > 0
   double solid_depth_m = 0.3;  ///< a wall thicker than twice this is drawn as its faces, > 0
 };

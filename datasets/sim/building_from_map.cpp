@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "datasets/sim/building.hpp"
@@ -18,6 +19,44 @@ Grid<std::uint8_t> inverted(const Grid<std::uint8_t>& cells) {
     }
   }
   return result;
+}
+
+constexpr std::array<Cell, 4> kBeside = {{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
+
+/// The connected free cells around a free cell; clears them in `free`.
+std::vector<Cell> take_component(Grid<std::uint8_t>& free, const Cell& start) {
+  std::vector<Cell> component{start};
+  free.at(start) = 0;
+  for (std::size_t next = 0; next < component.size(); ++next) {
+    for (const Cell& offset : kBeside) {
+      const Cell cell = {component[next].column + offset.column, component[next].row + offset.row};
+      if (free.contains(cell) && free.at(cell) != 0) {
+        free.at(cell) = 0;
+        component.push_back(cell);
+      }
+    }
+  }
+  return component;
+}
+
+/// Solid cells everywhere but in free spaces of some size: specks and frames are no rooms.
+Grid<std::uint8_t> solid_without_specks(const Grid<std::uint8_t>& occupied, double min_cells) {
+  Grid<std::uint8_t> solid(occupied.width(), occupied.height(), MetricMap::Solid);
+  Grid<std::uint8_t> free = inverted(occupied);
+  for (int row = 0; row < free.height(); ++row) {
+    for (int column = 0; column < free.width(); ++column) {
+      if (free.at({column, row}) == 0) {
+        continue;
+      }
+      const std::vector<Cell> component = take_component(free, {column, row});
+      if (static_cast<double>(component.size()) >= min_cells) {
+        for (const Cell& cell : component) {
+          solid.at(cell) = MetricMap::Free;
+        }
+      }
+    }
+  }
+  return solid;
 }
 
 /// The walls as far as they can be seen: occupied cells near free ones.
@@ -86,12 +125,9 @@ std::vector<Room> pieces_of_floor(const MetricMap& map, double room_size_m, Rng&
 Building building_from_map(const Grid<std::uint8_t>& occupied, double cell_m, Rng& rng,
                            const MapReadingParams& params) {
   check(cell_m > 0.0 && !occupied.empty(), "a map has cells with a size");
-  Building building{.plan = {}, .map = {.cells = occupied, .cell_m = cell_m}};
-  for (int row = 0; row < occupied.height(); ++row) {
-    for (std::uint8_t& cell : building.map.cells.row(row)) {
-      cell = cell != 0 ? MetricMap::Solid : MetricMap::Free;
-    }
-  }
+  const double min_cells = params.min_floor_m2 / (cell_m * cell_m);
+  Building building{.plan = {},
+                    .map = {.cells = solid_without_specks(occupied, min_cells), .cell_m = cell_m}};
   building.plan.walls = trace_walls(building.map, params);
   building.plan.rooms = pieces_of_floor(building.map, params.room_size_m, rng);
   return building;

@@ -17,6 +17,7 @@ using Points = std::vector<Eigen::Vector2d>;
 constexpr double kStep_m = 0.05;         ///< of the driven line
 constexpr double kTurnStep_rad = 0.1;    ///< of a turn on the spot
 constexpr double kTurnOnSpot_rad = 0.6;  ///< a corner sharper than this is turned on the spot
+constexpr double kGoalArea_m = 7.0;
 constexpr int kFailuresAllowed = 50;
 
 double heading_rad(const Eigen::Vector2d& direction) {
@@ -142,42 +143,58 @@ class Driver {
   MetricTrajectory poses_;
 };
 
-/// The places of each room where the robot can stand; rooms without any are left out.
-std::vector<Points> places_by_room(const Building& building, const detail::RoutePlanner& planner) {
-  std::vector<Points> rooms;
-  for (const Room& room : building.plan.rooms) {
-    Points places = planner.standing_places(room.box_in_world);
-    if (!places.empty()) {
-      rooms.push_back(std::move(places));
+/// A room in pieces of at most kGoalArea_m, so that halls are visited as often as they are large.
+std::vector<PlaneBox> goal_areas(const PlaneBox& room) {
+  const Eigen::Array2d pieces = (room.size() / kGoalArea_m).array().ceil().max(1.0);
+  const Eigen::Vector2d piece_m = room.size().array() / pieces;
+  std::vector<PlaneBox> areas;
+  for (int row = 0; row < static_cast<int>(pieces.y()); ++row) {
+    for (int column = 0; column < static_cast<int>(pieces.x()); ++column) {
+      const Eigen::Vector2d low = room.low + piece_m.cwiseProduct(Eigen::Vector2d(column, row));
+      areas.push_back({low, low + piece_m});
     }
   }
-  return rooms;
+  return areas;
+}
+
+/// Where the robot can stand, area by area; areas where it cannot are left out.
+std::vector<Points> standing_places(const Building& building, const detail::RoutePlanner& planner) {
+  std::vector<Points> by_area;
+  for (const Room& room : building.plan.rooms) {
+    for (const PlaneBox& area : goal_areas(room.box_in_world)) {
+      Points places = planner.standing_places(area);
+      if (!places.empty()) {
+        by_area.push_back(std::move(places));
+      }
+    }
+  }
+  return by_area;
 }
 
 const Eigen::Vector2d& pick(const Points& places, Rng& rng) {
   return places[static_cast<std::size_t>(uniform(rng) * static_cast<double>(places.size()))];
 }
 
-/// Rooms in random order, each as often as any other.
+/// Areas in random order, each as often as any other.
 class GoalPicker {
  public:
-  explicit GoalPicker(const std::vector<Points>& rooms) : rooms_(rooms) {}
+  explicit GoalPicker(const std::vector<Points>& areas) : areas_(areas) {}
 
   const Eigen::Vector2d& next(Rng& rng) {
     if (waiting_.empty()) {
-      for (std::size_t i = 0; i < rooms_.size(); ++i) {
+      for (std::size_t i = 0; i < areas_.size(); ++i) {
         waiting_.push_back(i);
       }
     }
     const auto chosen =
         static_cast<std::size_t>(uniform(rng) * static_cast<double>(waiting_.size()));
-    const std::size_t room = waiting_[chosen];
+    const std::size_t area = waiting_[chosen];
     waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(chosen));
-    return pick(rooms_[room], rng);
+    return pick(areas_[area], rng);
   }
 
  private:
-  const std::vector<Points>& rooms_;
+  const std::vector<Points>& areas_;
   std::vector<std::size_t> waiting_;
 };
 
@@ -196,11 +213,11 @@ void validate(const DriveParams& params) {
 Drive drive_through(const Building& building, const DriveParams& params, Rng& rng) {
   validate(params);
   const detail::RoutePlanner planner(building.map, params.robot_radius_m);
-  const std::vector<Points> rooms = places_by_room(building, planner);
-  if (rooms.empty()) {
+  const std::vector<Points> areas = standing_places(building, planner);
+  if (areas.empty()) {
     return {.status = Drive::Status::NoFreeSpace};
   }
-  GoalPicker goals(rooms);
+  GoalPicker goals(areas);
   Eigen::Vector2d here = goals.next(rng);
   Driver driver(params, here, uniform(-std::numbers::pi, std::numbers::pi, rng));
   int failures = 0;

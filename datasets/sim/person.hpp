@@ -9,18 +9,18 @@ namespace sketchloc {
 
 /// How a person gets places and sizes wrong. Log sigmas are of factors: 0.3 means a third.
 struct DistortionParams {
-  double px_per_m = 18.0;              ///< median of drawings, > 0
+  double px_per_m = 17.0;              ///< median of drawings, > 0
   double px_per_m_log_sigma = 0.15;    ///< between drawings, >= 0
   double tilt_sigma_rad = 0.05;        ///< of the whole drawing against the axes, >= 0
   double turned_share = 0.5;           ///< drawings turned by 90, 180 or 270 deg, in [0, 1]
   double proportion_log_sigma = 0.15;  ///< of the whole drawing's width against its height, >= 0
-  double room_log_sigma = 0.35;        ///< of each room's width and of its depth, >= 0
+  double room_log_sigma = 0.55;        ///< of each room's width and of its depth, >= 0
   double corridor_log_mean = 0.2;      ///< corridors are drawn wider than they are
-  double corridor_log_sigma = 0.3;     ///< of each corridor's width, >= 0
-  double room_shear_sigma = 0.1;       ///< slope of lines that should be at right angles, >= 0
+  double corridor_log_sigma = 0.5;     ///< of each corridor's width, >= 0
+  double room_shear_sigma = 0.25;      ///< slope of lines that should be at right angles, >= 0
   double straightness = 20.0;          ///< weight of keeping walls straight against room sizes, > 0
-  double evenness = 0.3;               ///< weight of keeping rows in line elsewhere, > 0
-  double bend_share = 0.02;            ///< spline displacement over the building's size, >= 0
+  double evenness = 0.12;              ///< weight of keeping rows in line elsewhere, > 0
+  double bend_share = 0.025;           ///< spline displacement over the building's size, >= 0
 };
 
 /// How a person moves the pen and what is left out.
@@ -38,7 +38,7 @@ struct PenParams {
   double left_out_share = 0.03;    ///< inner walls not drawn, in [0, 1]
   double shut_door_share = 0.06;   ///< doors drawn shut, in [0, 1]
   double door_log_sigma = 0.3;     ///< of the width of door gaps, >= 0
-  double furniture_share = 0.02;   ///< of the furniture that is drawn, in [0, 1]
+  double furniture_share = 0.01;   ///< of the furniture that is drawn, in [0, 1]
   double max_margin_px = 60.0;     ///< empty paper around the drawing, >= 0
 };
 
