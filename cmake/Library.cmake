@@ -15,12 +15,12 @@ function(sketchloc_library name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
                                              CXX_EXTENSIONS OFF)
   target_compile_features(${target} PUBLIC cxx_std_20)
-  target_include_directories(
-    ${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
-                     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/sketchloc>)
+  file(GLOB headers CONFIGURE_DEPENDS *.hpp detail/*.hpp)
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR} FILES ${headers})
   target_link_libraries(${target} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
   sketchloc_warnings(${target})
-  install(TARGETS ${target} EXPORT sketchloc-targets)
+  install(TARGETS ${target} EXPORT sketchloc-targets
+          FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/sketchloc)
 endfunction()
 
 # sketchloc_test(<folder> SOURCES ... LINK ...): one test binary per folder.
