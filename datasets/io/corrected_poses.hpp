@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "motion/trajectory.hpp"
+
+namespace sketchloc {
+
+/// The first poses of the FLASER lines of a CARMEN log, plain or gzip: where a mapper has corrected
+/// the log, its answer. A reference for evaluation, never an input. Throws std::runtime_error with
+/// file, line and field.
+MetricTrajectory read_corrected_poses(const std::filesystem::path& log);
+
+}  // namespace sketchloc
