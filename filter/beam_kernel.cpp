@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "motion/angles.hpp"
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
 
@@ -43,6 +44,29 @@ BeamKernel::LogKernel no_return_kernel(const BeamKernelParams& params) {
   };
 }
 
+std::int8_t saturate_byte(double value) {
+  return static_cast<std::int8_t>(std::lround(std::clamp(value, -128.0, 127.0)));
+}
+
+/// A strain e along its axis takes the direction (cos a, sin a) to (exp(e) cos a, exp(-e) sin a).
+std::vector<detail::StrainLevel> strain_levels(double log_step) {
+  std::vector<detail::StrainLevel> levels(detail::StrainLevel::kLevels);
+  for (std::size_t level = 0; level < levels.size(); ++level) {
+    const double longer = std::exp(static_cast<double>(level) * detail::StrainLevel::kStep);
+    for (std::size_t bin = 0; bin < RangeTable::kHeadings; ++bin) {
+      const double angle_rad =
+          static_cast<double>(bin) * (2.0 * std::numbers::pi / RangeTable::kHeadings);
+      const double along = longer * std::cos(angle_rad);
+      const double across = std::sin(angle_rad) / longer;
+      const double turn_rad = wrap_rad(std::atan2(across, along) - angle_rad);
+      const double stretch = std::log(std::hypot(along, across));
+      levels[level].turn[bin] = saturate_byte(turn_rad * (512.0 / (2.0 * std::numbers::pi)));
+      levels[level].stretch[bin] = saturate_byte(2.0 * stretch / log_step);
+    }
+  }
+  return levels;
+}
+
 std::int16_t saturate(double value) {
   return static_cast<std::int16_t>(std::lround(std::clamp(value, -32768.0, 32767.0)));
 }
@@ -77,24 +101,30 @@ void validate(const BeamKernelParams& params) {
 }
 
 BeamKernel::BeamKernel(const RangeTable& table, const BeamKernelParams& params)
-    : BeamKernel(table, (validate(params), returned_kernel(params)), no_return_kernel(params)) {}
+    : BeamKernel(table, (validate(params), returned_kernel(params)), no_return_kernel(params),
+                 params.nothing_drawn) {}
 
 BeamKernel::BeamKernel(const RangeTable& table, const LogKernel& returned,
-                       const LogKernel& not_returned)
-    : table_(&table) {
+                       const LogKernel& not_returned, std::optional<double> nothing_drawn)
+    : table_(&table), strain_(strain_levels(table.params().log_step)) {
   const KernelValues values = tabulate(returned, table.params().log_step);
   const KernelValues no_return_values = tabulate(not_returned, table.params().log_step);
-  least_ = std::min(std::ranges::min(values), std::ranges::min(no_return_values));
-  const double most = std::max(std::ranges::max(values), std::ranges::max(no_return_values));
+  const double nothing = nothing_drawn.value_or(values[0]);
+  least_ = std::min({std::ranges::min(values), std::ranges::min(no_return_values), nothing});
+  const double most =
+      std::max({std::ranges::max(values), std::ranges::max(no_return_values), nothing});
   unit_ = std::max(most - least_, 1e-300) / kLargestInteger;
+  const auto integer = [this](double value) {
+    return static_cast<std::uint16_t>(std::lround((value - least_) / unit_));
+  };
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto integer = std::lround((values[i] - least_) / unit_);
-    const auto no_return_integer = std::lround((no_return_values[i] - least_) / unit_);
-    kernels_.low[i] = static_cast<std::uint8_t>(integer & 0xFF);
-    kernels_.high[i] = static_cast<std::uint8_t>(integer >> 8);
-    kernels_.no_return_low[i] = static_cast<std::uint8_t>(no_return_integer & 0xFF);
-    kernels_.no_return_high[i] = static_cast<std::uint8_t>(no_return_integer >> 8);
+    kernels_.low[i] = static_cast<std::uint8_t>(integer(values[i]) & 0xFF);
+    kernels_.high[i] = static_cast<std::uint8_t>(integer(values[i]) >> 8);
+    kernels_.no_return_low[i] = static_cast<std::uint8_t>(integer(no_return_values[i]) & 0xFF);
+    kernels_.no_return_high[i] = static_cast<std::uint8_t>(integer(no_return_values[i]) >> 8);
   }
+  kernels_.nothing = integer(nothing);
+  kernels_.has_nothing = nothing_drawn.has_value();
 }
 
 void BeamKernel::prepare(std::span<const Beam> beams, PreparedBeams& prepared) const {
@@ -116,20 +146,19 @@ void BeamKernel::prepare(std::span<const Beam> beams, PreparedBeams& prepared) c
   }
 }
 
-void BeamKernel::score(const ParticleView& particles, const PreparedBeams& beams,
+void BeamKernel::score(const ParticleSpans& particles, const PreparedBeams& beams,
                        std::span<float> log_likelihood) const {
-  const std::size_t count = particles.size();
-  check(particles.y_px.size() == count && particles.heading_rad.size() == count &&
-            particles.scale_px_per_m.size() == count && log_likelihood.size() == count,
-        "all arrays of the particles have one length");
-  const detail::RangeCodes table{.codes = table_->codes().data(),
+  check_lengths(particles);
+  check(log_likelihood.size() == particles.size(), "one log-likelihood per particle");
+  const detail::RangeCodes range{.codes = table_->codes().data(),
                                  .columns = table_->columns(),
                                  .rows = table_->rows(),
                                  .width_px = static_cast<float>(table_->width_px()),
                                  .height_px = static_cast<float>(table_->height_px()),
                                  .cells_per_px = 1.0F / static_cast<float>(table_->cell_px()),
                                  .log_step = static_cast<float>(table_->params().log_step)};
-  detail::score_beams(particles, table, kernels_, beams.groups_,
+  const detail::BeamTables tables{.range = range, .kernels = &kernels_, .strain = strain_.data()};
+  detail::score_beams(particles, tables, beams.groups_,
                       {.unit = unit_, .least = static_cast<double>(beams.size()) * least_},
                       log_likelihood);
 }

@@ -3,11 +3,12 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "filter/detail/beam_score.hpp"
-#include "filter/particle_view.hpp"
+#include "filter/particle_spans.hpp"
 #include "registration/range_table.hpp"
 
 namespace sketchloc {
@@ -27,6 +28,9 @@ struct BeamKernelParams {
   double sigma = 0.3;            ///< of the log-ratio, > 0; real drawings, DESIGN 10
   double floor = 0.3;            ///< share of beams that say nothing, in (0, 1]
   double no_return_floor = 0.3;  ///< the same for beams without return, in (0, 1]
+  /// Log-likelihood of a beam that returned where the drawing has no stroke in reach; without it
+  /// such a beam has its K at the farthest range of the table, mostly the log of `floor`.
+  std::optional<double> nothing_drawn = {};
 };
 void validate(const BeamKernelParams& params);
 
@@ -43,11 +47,12 @@ class PreparedBeams {
 
 /// Scores many particles against the beams of one scan with expected ranges from a RangeTable.
 ///
-/// For a particle and a beam: d = log(range x stretch x scale) - log(expected range at the
-/// particle's cell in the nearest of 128 headings); the score is the sum of K(d) over the beams.
-/// All in integers: d is rounded to the table's `log_step` (once; the table's own rounding comes on
-/// top), K to 1/65535 of its range. So scores are the same bits on every processor, and the sum has
-/// no order.
+/// For a particle and a beam: the beam's direction u and length z through the particle's local map
+/// J give a direction J u and z |J u| px in the drawing; d = log(z |J u|) - log(expected range at
+/// the particle's cell in the nearest of 128 headings), and the score is the sum of K(d) over the
+/// beams. All in integers: d is rounded to the table's `log_step` (the table's own rounding comes
+/// on top), K to 1/65535 of its range. So scores are the same bits on every processor, and the sum
+/// has no order. Strains are rounded to 1/64 and count up to 1.5.
 class BeamKernel {
  public:
   /// Natural logarithm of a likelihood (up to a constant) given d; read between -64 and 63 steps,
@@ -56,20 +61,22 @@ class BeamKernel {
 
   /// The table must outlive the kernel.
   BeamKernel(const RangeTable& table, const BeamKernelParams& params);
-  BeamKernel(const RangeTable& table, const LogKernel& returned, const LogKernel& not_returned);
+  BeamKernel(const RangeTable& table, const LogKernel& returned, const LogKernel& not_returned,
+             std::optional<double> nothing_drawn = std::nullopt);
   BeamKernel(RangeTable&&, const BeamKernelParams&) = delete;
 
   /// Fills `prepared` from a scan; allocates only to grow.
   void prepare(std::span<const Beam> beams, PreparedBeams& prepared) const;
 
-  /// Log-likelihood of every particle, untempered. A particle outside the drawing (or without a
-  /// positive scale) gets the least score there is. Safe to call from several threads.
-  void score(const ParticleView& particles, const PreparedBeams& beams,
+  /// Log-likelihood of every particle, untempered. A particle outside the drawing (or one whose
+  /// scale or strain is not finite) gets the least score there is. Safe to call from many threads.
+  void score(const ParticleSpans& particles, const PreparedBeams& beams,
              std::span<float> log_likelihood) const;
 
  private:
   const RangeTable* table_;
   detail::KernelTables kernels_;
+  std::vector<detail::StrainLevel> strain_;
   double least_;  ///< of both kernels: what the integer 0 stands for
   double unit_;   ///< of the integers of both kernels
 };

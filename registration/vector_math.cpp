@@ -34,6 +34,20 @@ void fill_logarithms(const float* positive, std::size_t count, float* logarithm)
   simd::for_each_vector(count, some_at);
 }
 
+void fill_exponentials(const float* exponent, std::size_t count, float* exponential) {
+  const auto some_at = [=](auto d, std::size_t i) {
+    hn::StoreU(simd::exponential(d, hn::LoadU(d, exponent + i)), d, exponential + i);
+  };
+  simd::for_each_vector(count, some_at);
+}
+
+void fill_angles(const float* x, const float* y, std::size_t count, float* angle_rad) {
+  const auto some_at = [=](auto d, std::size_t i) {
+    hn::StoreU(simd::angle(d, hn::LoadU(d, x + i), hn::LoadU(d, y + i)), d, angle_rad + i);
+  };
+  simd::for_each_vector(count, some_at);
+}
+
 }  // namespace
 }  // namespace sketchloc::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -43,6 +57,8 @@ namespace sketchloc {
 
 HWY_EXPORT(fill_unit_vectors);
 HWY_EXPORT(fill_logarithms);
+HWY_EXPORT(fill_exponentials);
+HWY_EXPORT(fill_angles);
 
 void unit_vectors(std::span<const float> heading_rad, std::span<float> cosine,
                   std::span<float> sine) {
@@ -55,6 +71,16 @@ void unit_vectors(std::span<const float> heading_rad, std::span<float> cosine,
 void logarithms(std::span<const float> positive, std::span<float> logarithm) {
   check(logarithm.size() == positive.size(), "one logarithm per number");
   HWY_DYNAMIC_DISPATCH(fill_logarithms)(positive.data(), positive.size(), logarithm.data());
+}
+
+void exponentials(std::span<const float> exponent, std::span<float> exponential) {
+  check(exponential.size() == exponent.size(), "one exponential per exponent");
+  HWY_DYNAMIC_DISPATCH(fill_exponentials)(exponent.data(), exponent.size(), exponential.data());
+}
+
+void angles(std::span<const float> x, std::span<const float> y, std::span<float> angle_rad) {
+  check(y.size() == x.size() && angle_rad.size() == x.size(), "one angle per vector");
+  HWY_DYNAMIC_DISPATCH(fill_angles)(x.data(), y.data(), x.size(), angle_rad.data());
 }
 
 }  // namespace sketchloc

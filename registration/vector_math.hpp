@@ -14,4 +14,11 @@ void unit_vectors(std::span<const float> heading_rad, std::span<float> cosine,
 /// Natural logarithms of positive normal numbers, error below 2e-7 plus one unit in the last place.
 void logarithms(std::span<const float> positive, std::span<float> logarithm);
 
+/// Exponential functions, relative error below 2e-7 for |exponent| <= 80; further ones count as
+/// +-80.
+void exponentials(std::span<const float> exponent, std::span<float> exponential);
+
+/// Angles of vectors (x, y) in [-pi, pi], error below 1e-6; 0 for the vector 0.
+void angles(std::span<const float> x, std::span<const float> y, std::span<float> angle_rad);
+
 }  // namespace sketchloc

@@ -45,16 +45,15 @@ testing::ParticleCloud cloud(std::int64_t particles, std::int64_t size, bool spr
 class Window {
  public:
   Window(const testing::ParticleCloud& cloud, std::size_t count)
-      : all_(cloud.view()), count_(count) {}
+      : all_(cloud.spans()), count_(count) {}
 
-  ParticleView next() {
+  ParticleSpans next() {
     from_ = from_ + 2 * count_ <= all_.size() ? from_ + count_ : 0;
-    return {all_.x_px.subspan(from_, count_), all_.y_px.subspan(from_, count_),
-            all_.heading_rad.subspan(from_, count_), all_.scale_px_per_m.subspan(from_, count_)};
+    return all_.subspan(from_, count_);
   }
 
  private:
-  ParticleView all_;
+  ParticleSpans all_;
   std::size_t count_;
   std::size_t from_ = 0;
 };
@@ -71,7 +70,7 @@ void ByTraversal(benchmark::State& state) {
   const std::vector<Beam> beams = scan(state.range(1));
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        testing::score_by_traversal(occupied, {}, particles.view(), beams, 1000.0));
+        testing::score_by_traversal(occupied, {}, particles.spans(), beams, 1000.0));
   }
   count_rays(state, state.range(0) * state.range(1));
 }
@@ -108,6 +107,28 @@ BENCHMARK(Score)
     ->Unit(benchmark::kMicrosecond);
 BENCHMARK(Score)
     ->ArgsProduct({{2000}, {30, 64, 128, 180, 360, 720}, {1000}, {1}})
+    ->Unit(benchmark::kMicrosecond);
+
+/// As Score, with particles that are not similarities.
+void ScoreStrained(benchmark::State& state) {
+  const RangeTable table(drawing(state.range(2)));
+  const BeamKernel kernel(table, BeamKernelParams{.nothing_drawn = -0.8});
+  const auto count = static_cast<std::size_t>(state.range(0));
+  auto particles = cloud(1'000'000, state.range(2), state.range(3) != 0);
+  particles.strain(3);
+  Window window(particles, count);
+  PreparedBeams beams;
+  kernel.prepare(scan(state.range(1)), beams);
+  std::vector<float> scores(count);
+  for (auto _ : state) {
+    kernel.score(window.next(), beams, scores);
+    benchmark::DoNotOptimize(scores.data());
+    benchmark::ClobberMemory();
+  }
+  count_rays(state, state.range(0) * state.range(1));
+}
+BENCHMARK(ScoreStrained)
+    ->ArgsProduct({{2000}, {60}, {1000}, {1, 0}})
     ->Unit(benchmark::kMicrosecond);
 
 void Prepare(benchmark::State& state) {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "filter/particle_view.hpp"
+#include "filter/particle_spans.hpp"
 
 namespace sketchloc::detail {
 
@@ -31,6 +31,18 @@ struct alignas(64) KernelTables {
   std::array<std::uint8_t, 128> high;
   std::array<std::uint8_t, 128> no_return_low;
   std::array<std::uint8_t, 128> no_return_high;
+  std::uint16_t nothing;  ///< of a beam that returned where the drawing has nothing in reach
+  bool has_nothing;       ///< false: "nothing" is only the largest code
+};
+
+/// What a strain of one size does to a direction, by the direction's angle from the strain's axis
+/// in 128 bins: how far it turns it, in 1/512 turn, and how much it stretches it, in half codes.
+struct alignas(64) StrainLevel {
+  static constexpr double kStep = 1.0 / 64.0;  ///< of strain between levels
+  static constexpr int kLevels = 97;  ///< up to 1.5, a ratio of 20 : 1; beyond counts as that
+
+  std::array<std::int8_t, 128> turn;
+  std::array<std::int8_t, 128> stretch;
 };
 
 /// The range table in plain values.
@@ -50,9 +62,16 @@ struct ScoreScale {
   double least;
 };
 
+/// All that stays the same from scan to scan.
+struct BeamTables {
+  RangeCodes range;
+  const KernelTables* kernels;
+  const StrainLevel* strain;  ///< kLevels of them
+};
+
 /// Fills the log-likelihoods of all particles.
-void score_beams(const ParticleView& particles, const RangeCodes& table,
-                 const KernelTables& kernels, std::span<const BeamGroup> groups,
-                 const ScoreScale& scale, std::span<float> log_likelihood);
+void score_beams(const ParticleSpans& particles, const BeamTables& tables,
+                 std::span<const BeamGroup> groups, const ScoreScale& scale,
+                 std::span<float> log_likelihood);
 
 }  // namespace sketchloc::detail

@@ -77,6 +77,47 @@ HWY_INLINE V logarithm(D d, V positive) {
   return hn::Add(hn::Mul(k, hn::Set(d, 0.693145752F)), hn::Add(t, low));
 }
 
+/// exp(clamp(exponent, -80, 80)): 2^k exp(x) with |x| <= ln 2 / 2 and the series of exp to x^7.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V exponential(D d, V exponent) {
+  const hn::RebindToSigned<D> di;
+  const auto number = [d](float value) HWY_ATTR { return hn::Set(d, value); };
+  const V clamped = hn::Min(hn::Max(exponent, number(-80.0F)), number(80.0F));
+  const V k = hn::Round(hn::Mul(clamped, number(1.44269504F)));
+  // ln 2 in two parts; the product of the first with k is exact.
+  V x = hn::Sub(clamped, hn::Mul(k, number(0.693145752F)));
+  x = hn::Sub(x, hn::Mul(k, number(1.42860677e-6F)));
+  constexpr float kCoefficients[] = {1.0F / 720, 1.0F / 120, 1.0F / 24, 1.0F / 6, 0.5F, 1.0F, 1.0F};
+  V p = number(1.0F / 5040);
+  for (const float coefficient : kCoefficients) {
+    p = hn::Add(hn::Mul(p, x), number(coefficient));
+  }
+  const auto power = hn::Add(hn::ConvertTo(di, k), hn::Set(di, 127));
+  return hn::Mul(p, hn::BitCast(d, hn::ShiftLeft<23>(power)));
+}
+
+/// Angle of the vector (x, y): minimax polynomial (ours, maximal error 4e-7) in the ratio of the
+/// smaller to the larger coordinate, then mirrored into the right octant.
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE V angle(D d, V x, V y) {
+  const auto number = [d](float value) HWY_ATTR { return hn::Set(d, value); };
+  const V wide = hn::Abs(x);
+  const V high = hn::Abs(y);
+  const V larger = hn::Max(hn::Max(wide, high), number(1e-30F));
+  const V ratio = hn::Div(hn::Min(wide, high), larger);
+  const V z = hn::Mul(ratio, ratio);
+  constexpr float kCoefficients[] = {-3.55199324e-2F, 8.21678193e-2F, -1.33988027e-1F,
+                                     1.98618565e-1F, -3.33253948e-1F};
+  V p = number(7.37400250e-3F);
+  for (const float coefficient : kCoefficients) {
+    p = hn::Add(hn::Mul(p, z), number(coefficient));
+  }
+  V angle = hn::Add(ratio, hn::Mul(hn::Mul(p, z), ratio));
+  angle = hn::IfThenElse(hn::Gt(high, wide), hn::Sub(number(1.57079633F), angle), angle);
+  angle = hn::IfThenElse(hn::Lt(x, hn::Zero(d)), hn::Sub(number(3.14159265F), angle), angle);
+  return hn::IfThenElse(hn::Lt(y, hn::Zero(d)), hn::Neg(angle), angle);
+}
+
 /// Calls some_at(d, i) for all i in [0, count) in whole vectors, then one by one.
 template <class Function>
 HWY_INLINE void for_each_vector(std::size_t count, const Function& some_at) {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "filter/particle_view.hpp"
+#include "filter/particle_spans.hpp"
 
 namespace sketchloc::testing {
 
@@ -15,14 +15,29 @@ struct ParticleCloud {
   std::vector<float> x_px;
   std::vector<float> y_px;
   std::vector<float> heading_rad;
-  std::vector<float> scale_px_per_m;
+  std::vector<float> log_scale;
+  std::vector<float> axial_strain;
+  std::vector<float> diagonal_strain;
 
-  ParticleView view() const { return {x_px, y_px, heading_rad, scale_px_per_m}; }
+  ParticleSpans spans() const {
+    return {x_px, y_px, heading_rad, log_scale, axial_strain, diagonal_strain};
+  }
   void add(float x, float y, float heading, float scale) {
     x_px.push_back(x);
     y_px.push_back(y);
     heading_rad.push_back(heading);
-    scale_px_per_m.push_back(scale);
+    log_scale.push_back(std::log(scale));
+  }
+  /// Gives every particle a strain of its own, ratios of the two directions around 1.8.
+  void strain(std::uint64_t seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<float> part(0.0F, 0.25F);
+    axial_strain.resize(x_px.size());
+    diagonal_strain.resize(x_px.size());
+    for (std::size_t i = 0; i < x_px.size(); ++i) {
+      axial_strain[i] = part(engine);
+      diagonal_strain[i] = part(engine);
+    }
   }
 };
 

@@ -1,5 +1,6 @@
 #include "tests/support/scalar_beam_model.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,21 +19,39 @@ double log_kernel(const BeamKernelParams& params, const Beam& beam, double log_r
   return std::log((1.0 - params.no_return_floor) * below + params.no_return_floor);
 }
 
+/// exp(log_scale) S R(heading) of ParticleSpans, by eigenvalues.
+Eigen::Matrix2d local_map(const ParticleSpans& particles, std::size_t i) {
+  const Eigen::Rotation2Dd rotation(static_cast<double>(particles.heading_rad[i]));
+  const double scale = std::exp(static_cast<double>(particles.log_scale[i]));
+  if (!particles.strained()) {
+    return scale * rotation.toRotationMatrix();
+  }
+  const double axial = particles.axial_strain[i];
+  const double diagonal = particles.diagonal_strain[i];
+  const Eigen::Rotation2Dd axes(0.5 * std::atan2(diagonal, axial));
+  const double size = std::hypot(axial, diagonal);
+  const Eigen::Vector2d ratios(std::exp(size), std::exp(-size));
+  return scale * (axes * ratios.asDiagonal() * axes.inverse() * rotation.toRotationMatrix());
+}
+
 }  // namespace
 
 std::vector<double> score_by_traversal(const Grid<std::uint8_t>& occupied,
                                        const BeamKernelParams& params,
-                                       const ParticleView& particles, std::span<const Beam> beams,
+                                       const ParticleSpans& particles, std::span<const Beam> beams,
                                        double max_range_px) {
   std::vector<double> scores(particles.size(), 0.0);
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const Eigen::Vector2d origin(particles.x_px[i], particles.y_px[i]);
+    const Eigen::Matrix2d sketch_from_robot = local_map(particles, i);
     for (const Beam& beam : beams) {
-      const double heading_rad = static_cast<double>(particles.heading_rad[i]) + beam.bearing_rad;
+      const double bearing_rad = beam.bearing_rad;
+      const Eigen::Vector2d drawn =
+          sketch_from_robot * Eigen::Vector2d(std::cos(bearing_rad), std::sin(bearing_rad));
       const double expected =
-          std::max(0.5, traverse_beyond_own_stroke(occupied, origin, heading_rad, max_range_px));
-      const double measured = static_cast<double>(beam.range_m) * particles.scale_px_per_m[i] *
-                              std::exp(beam.log_stretch);
+          std::max(0.5, traverse_beyond_own_stroke(occupied, origin,
+                                                   std::atan2(drawn.y(), drawn.x()), max_range_px));
+      const double measured = beam.range_m * drawn.norm() * std::exp(beam.log_stretch);
       scores[i] += log_kernel(params, beam, std::log(measured / expected));
     }
   }

@@ -12,7 +12,7 @@ namespace sketchloc::testing {
 /// really is, in its real direction, in double.
 std::vector<double> score_by_traversal(const Grid<std::uint8_t>& occupied,
                                        const BeamKernelParams& params,
-                                       const ParticleView& particles, std::span<const Beam> beams,
+                                       const ParticleSpans& particles, std::span<const Beam> beams,
                                        double max_range_px);
 
 }  // namespace sketchloc::testing
