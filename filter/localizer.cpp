@@ -94,16 +94,16 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
     predict_all(odometry_increment(*last_odom_from_robot_, odom_from_robot));
   }
   last_odom_from_robot_ = odom_from_robot;
-  select_beams(beams_, scan, params_.beams.selection);
-  report_.updated = gate_opens() && beams_.size() > 0;
+  const std::size_t beams = gate_opens() ? beam_model_.observe(scan) : 0;
+  report_.updated = beams > 0;
   if (report_.updated) {
-    weigh(scan);
+    weigh(beams);
   }
   report_.effective_particles = normalise(particles_).effective_particles;
   report_.particles = particles_.size();
   mode_finder_.find(particles_, report_.estimate);
   if (report_.updated) {
-    resample_and_recover(scan);
+    resample_and_recover();
   }
   ++steps_;
   return report_;
@@ -123,15 +123,11 @@ void Localizer::predict_all(const Se2& robot_from_next) {
   });
 }
 
-void Localizer::weigh(const Scan&) {
+void Localizer::weigh(std::size_t beams) {
   for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t, ParticleRange range) {
-    beam_model_.score(particles_, range, beams_, scores_);
+    beam_model_.score(particles_, range, scores_);
   });
-  double exponent = params_.beams.exponent;
-  if (params_.beams.exponent_way_m > 0.0 && updated_once_) {
-    exponent *= std::min(
-        1.0, (way_since_update_m_ + 0.3 * turn_since_update_rad_) / params_.beams.exponent_way_m);
-  }
+  const double exponent = params_.beams.exponent;
   double weight_sum = 0.0;
   double score_sum = 0.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -140,7 +136,7 @@ void Localizer::weigh(const Scan&) {
     score_sum += weight * scores_[i];
     particles_.log_weight[i] += static_cast<float>(exponent * scores_[i]);
   }
-  const double per_beam = score_sum / weight_sum / static_cast<double>(beams_.size());
+  const double per_beam = score_sum / weight_sum / static_cast<double>(beams);
   evidence_.add(per_beam, way_since_update_m_ + 0.3 * turn_since_update_rad_);
   report_.log_likelihood = per_beam;
   way_since_update_m_ = 0.0;
@@ -148,7 +144,7 @@ void Localizer::weigh(const Scan&) {
   updated_once_ = true;
 }
 
-void Localizer::resample_and_recover(const Scan& scan) {
+void Localizer::resample_and_recover() {
   if (report_.effective_particles <
       params_.resample_below * static_cast<double>(particles_.size())) {
     report_.resampled = true;
@@ -174,12 +170,12 @@ void Localizer::resample_and_recover(const Scan& scan) {
     const auto count = static_cast<std::size_t>(evidence_.injection_share() *
                                                 static_cast<double>(particles_.size()));
     if (count > 0 && !anywhere_.empty()) {
-      report_.injected_share = inject(count, scan);
+      report_.injected_share = inject(count);
     }
   }
 }
 
-double Localizer::inject(std::size_t count, const Scan&) {
+double Localizer::inject(std::size_t count) {
   candidates_.resize(params_.recovery.candidates);
   double log_mean = 0.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -190,7 +186,7 @@ double Localizer::inject(std::size_t count, const Scan&) {
   for_each_chunk(candidates_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, steps_ * kPurposes + kCandidates, chunk);
     anywhere_.draw(candidates_, range, scale, params_.start.strain, rng);
-    beam_model_.score(candidates_, range, beams_, scores_);
+    beam_model_.score(candidates_, range, scores_);
   });
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     candidates_.log_weight[i] =

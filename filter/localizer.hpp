@@ -75,9 +75,9 @@ class Localizer {
 
  private:
   void predict_all(const Se2& robot_from_next);
-  void weigh(const Scan& scan);
-  void resample_and_recover(const Scan& scan);
-  double inject(std::size_t count, const Scan& scan);
+  void weigh(std::size_t beams);
+  void resample_and_recover();
+  double inject(std::size_t count);
   bool gate_opens() const;
 
   LocalizerParams params_;
@@ -93,15 +93,12 @@ class Localizer {
   ParticleSet candidates_;  ///< for recovery
   std::vector<float> scores_;
   std::vector<std::uint32_t> parents_;
-  BeamSet beams_;
 
   std::optional<Se2> last_odom_from_robot_;
   std::size_t steps_ = 0;
   double way_since_update_m_ = 0.0;
   double turn_since_update_rad_ = 0.0;
   bool updated_once_ = false;
-  double log_mean_visible_m_ = 0.0;
-  std::size_t scans_seen_ = 0;
   StepReport report_;
 };
 

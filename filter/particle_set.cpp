@@ -29,6 +29,15 @@ void ParticleSet::reserve(std::size_t count) {
   }
 }
 
+ParticleSpans ParticleSet::spans() const {
+  return {.x_px = x_px,
+          .y_px = y_px,
+          .heading_rad = heading_rad,
+          .log_scale = log_scale,
+          .axial_strain = axial_strain,
+          .diagonal_strain = diagonal_strain};
+}
+
 Sim2 ParticleSet::sketch_from_robot(std::size_t index) const {
   return Sim2::from_xy_yaw_scale(x_px[index], y_px[index], heading_rad[index],
                                  std::exp(log_scale[index]));

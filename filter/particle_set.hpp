@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "filter/particle_spans.hpp"
 #include "motion/sim2.hpp"
 
 namespace sketchloc {
@@ -29,6 +30,9 @@ struct ParticleSet {
   std::size_t size() const { return x_px.size(); }
   void resize(std::size_t count);
   void reserve(std::size_t count);
+
+  /// The poses as the measurement kernels read them.
+  ParticleSpans spans() const;
 
   /// The similarity part of one particle.
   Sim2 sketch_from_robot(std::size_t index) const;

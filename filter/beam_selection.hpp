@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "datasets/scan.hpp"
+#include "filter/beam_kernel.hpp"
 
 namespace sketchloc {
 
@@ -15,16 +16,8 @@ struct BeamSelection {
 };
 void validate(const BeamSelection& selection);
 
-/// Beams of one scan in the robot frame, as arrays.
-struct BeamSet {
-  std::vector<float> bearing_rad;
-  std::vector<float> log_range;  ///< of metres
-
-  std::size_t size() const { return bearing_rad.size(); }
-};
-
 /// Refills `beams` with the selected returns of a scan; keeps its memory. Each stands for an equal
 /// sector of the field of view and is its middle return; sectors without one are left out.
-void select_beams(BeamSet& beams, const Scan& scan, const BeamSelection& selection);
+void select_beams(std::vector<Beam>& beams, const Scan& scan, const BeamSelection& selection);
 
 }  // namespace sketchloc

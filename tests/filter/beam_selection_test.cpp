@@ -1,4 +1,4 @@
-#include "filter/beam_set.hpp"
+#include "filter/beam_selection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,25 +20,25 @@ Scan half_turn_scan(std::size_t readings, float range_m) {
 }
 
 TEST(SelectBeams, SpreadsThemOverTheFieldOfView) {
-  BeamSet beams;
+  std::vector<Beam> beams;
   select_beams(beams, half_turn_scan(181, 2.0F), {.beams = 3});
   ASSERT_EQ(beams.size(), 3U);
-  EXPECT_NEAR(beams.bearing_rad[0], -std::numbers::pi / 3.0, 0.02);
-  EXPECT_NEAR(beams.bearing_rad[1], 0.0, 0.02);
-  EXPECT_NEAR(beams.bearing_rad[2], std::numbers::pi / 3.0, 0.02);
-  EXPECT_NEAR(beams.log_range[1], std::log(2.0), 1e-6);
+  EXPECT_NEAR(beams[0].bearing_rad, -std::numbers::pi / 3.0, 0.02);
+  EXPECT_NEAR(beams[1].bearing_rad, 0.0, 0.02);
+  EXPECT_NEAR(beams[2].bearing_rad, std::numbers::pi / 3.0, 0.02);
+  EXPECT_NEAR(beams[1].range_m, 2.0, 1e-6);
 }
 
 TEST(SelectBeams, LeavesOutWhatDidNotReturnOrIsTooFar) {
   Scan scan = half_turn_scan(3, 5.0F);
   scan.ranges_m = {std::numeric_limits<float>::quiet_NaN(), 25.0F, 0.0F};
-  BeamSet beams;
+  std::vector<Beam> beams;
   select_beams(beams, scan, {.beams = 3, .max_range_m = 20.0});
   EXPECT_EQ(beams.size(), 0U);
 }
 
 TEST(SelectBeams, TakesEveryReadingWhereThereAreFewer) {
-  BeamSet beams;
+  std::vector<Beam> beams;
   select_beams(beams, half_turn_scan(5, 2.0F), {.beams = 60});
   EXPECT_EQ(beams.size(), 5U);
   select_beams(beams, Scan(), {});
@@ -48,11 +48,11 @@ TEST(SelectBeams, TakesEveryReadingWhereThereAreFewer) {
 TEST(SelectBeams, SeesFromTheRobotNotFromTheLaser) {
   Scan scan = half_turn_scan(3, 2.0F);
   scan.robot_from_laser = Se2::from_xy_yaw(1.0, 0.0, std::numbers::pi);  // looks back
-  BeamSet beams;
+  std::vector<Beam> beams;
   select_beams(beams, scan, {.beams = 3});
   ASSERT_EQ(beams.size(), 3U);
-  EXPECT_NEAR(std::abs(beams.bearing_rad[1]), std::numbers::pi, 1e-6);  // middle reading
-  EXPECT_NEAR(beams.log_range[1], std::log(1.0), 1e-6);                 // at x = 1 - 2
+  EXPECT_NEAR(std::abs(beams[1].bearing_rad), std::numbers::pi, 1e-6);  // middle reading
+  EXPECT_NEAR(beams[1].range_m, 1.0, 1e-6);                             // at x = 1 - 2
 }
 
 TEST(BeamSelection, RefusesWhatIsOutOfRange) {

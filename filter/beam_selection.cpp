@@ -1,4 +1,4 @@
-#include "filter/beam_set.hpp"
+#include "filter/beam_selection.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,15 +6,19 @@
 #include "motion/validate.hpp"
 
 namespace sketchloc {
+namespace {
+
+constexpr double kLeastRangeM = 1e-3;
+
+}  // namespace
 
 void validate(const BeamSelection& selection) {
   require_in_range("beams", selection.beams, 1, 1024);
   require_above("max_range_m", selection.max_range_m, 0.0);
 }
 
-void select_beams(BeamSet& beams, const Scan& scan, const BeamSelection& selection) {
-  beams.bearing_rad.clear();
-  beams.log_range.clear();
+void select_beams(std::vector<Beam>& beams, const Scan& scan, const BeamSelection& selection) {
+  beams.clear();
   const auto readings = static_cast<int>(scan.ranges_m.size());
   const int sectors = std::min(selection.beams, readings);
   for (int sector = 0; sector < sectors; ++sector) {
@@ -27,8 +31,9 @@ void select_beams(BeamSet& beams, const Scan& scan, const BeamSelection& selecti
     const Eigen::Vector2d end_in_robot =
         scan.robot_from_laser *
         Eigen::Vector2d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
-    beams.bearing_rad.push_back(static_cast<float>(std::atan2(end_in_robot.y(), end_in_robot.x())));
-    beams.log_range.push_back(static_cast<float>(std::log(end_in_robot.norm())));
+    beams.push_back(
+        {.bearing_rad = static_cast<float>(std::atan2(end_in_robot.y(), end_in_robot.x())),
+         .range_m = static_cast<float>(std::max(end_in_robot.norm(), kLeastRangeM))});
   }
 }
 
