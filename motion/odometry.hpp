@@ -13,6 +13,14 @@ struct OdometryNoise {
   double turn_rad_per_rad = 0.05;  ///< heading error per radian turned, >= 0
 };
 
+template <typename Visitor>
+void visit_fields(OdometryNoise& noise, Visitor&& visit) {
+  visit("slip_m_per_m", noise.slip_m_per_m);
+  visit("slip_m_per_rad", noise.slip_m_per_rad);
+  visit("turn_rad_per_m", noise.turn_rad_per_m);
+  visit("turn_rad_per_rad", noise.turn_rad_per_rad);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const OdometryNoise& noise);
 

@@ -43,6 +43,18 @@ struct MapReadingParams {
   double solid_depth_m = 0.3;  ///< a wall thicker than twice this is drawn as its faces, > 0
 };
 
+template <typename Visitor>
+void visit_fields(MapReadingParams& reading, Visitor&& visit) {
+  visit("min_wall_m", reading.min_wall_m);
+  visit("tolerance_m", reading.tolerance_m);
+  visit("min_floor_m2", reading.min_floor_m2);
+  visit("room_size_m", reading.room_size_m);
+  visit("solid_depth_m", reading.solid_depth_m);
+}
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const MapReadingParams& reading);
+
 /// A real building's occupancy map (1 = occupied or unknown) as a building: its walls are traced
 /// into lines, and pieces of its free space stand for rooms.
 Building building_from_map(const Grid<std::uint8_t>& occupied, double cell_m, Rng& rng,

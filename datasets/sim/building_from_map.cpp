@@ -7,6 +7,7 @@
 #include "datasets/sim/detail/wall_tracing.hpp"
 #include "datasets/sim/raster.hpp"
 #include "motion/check.hpp"
+#include "motion/validate.hpp"
 
 namespace sketchloc {
 namespace {
@@ -122,8 +123,17 @@ std::vector<Room> pieces_of_floor(const MetricMap& map, double room_size_m, Rng&
 
 }  // namespace
 
+void validate(const MapReadingParams& reading) {
+  require_at_least("min_wall_m", reading.min_wall_m, 0.0);
+  require_above("tolerance_m", reading.tolerance_m, 0.0);
+  require_at_least("min_floor_m2", reading.min_floor_m2, 0.0);
+  require_at_least("room_size_m", reading.room_size_m, 0.5);
+  require_above("solid_depth_m", reading.solid_depth_m, 0.0);
+}
+
 Building building_from_map(const Grid<std::uint8_t>& occupied, double cell_m, Rng& rng,
                            const MapReadingParams& params) {
+  validate(params);
   check(cell_m > 0.0 && !occupied.empty(), "a map has cells with a size");
   const double min_cells = params.min_floor_m2 / (cell_m * cell_m);
   Building building{.plan = {},

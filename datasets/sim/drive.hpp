@@ -20,6 +20,17 @@ struct DriveParams {
   double wander_m = 0.1;         ///< how far a drive strays from the planned line, >= 0
 };
 
+template <typename Visitor>
+void visit_fields(DriveParams& drive, Visitor&& visit) {
+  visit("length_m", drive.length_m);
+  visit("robot_radius_m", drive.robot_radius_m);
+  visit("scan_spacing_m", drive.scan_spacing_m);
+  visit("scan_turn_rad", drive.scan_turn_rad);
+  visit("speed_mps", drive.speed_mps);
+  visit("turn_rate_radps", drive.turn_rate_radps);
+  visit("wander_m", drive.wander_m);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const DriveParams& params);
 

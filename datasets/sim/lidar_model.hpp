@@ -24,6 +24,19 @@ struct LidarModel {
   double forward_m = 0.0;                       ///< of the laser in the robot frame
 };
 
+template <typename Visitor>
+void visit_fields(LidarModel& lidar, Visitor&& visit) {
+  visit("field_of_view_rad", lidar.field_of_view_rad);
+  visit("beams", lidar.beams);
+  visit("min_range_m", lidar.min_range_m);
+  visit("max_range_m", lidar.max_range_m);
+  visit("range_sigma_m", lidar.range_sigma_m);
+  visit("dropout_share", lidar.dropout_share);
+  visit("short_share", lidar.short_share);
+  visit("glass_pass_share", lidar.glass_pass_share);
+  visit("forward_m", lidar.forward_m);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const LidarModel& lidar);
 

@@ -19,6 +19,14 @@ struct OdometryModel {
                          .turn_rad_per_rad = 0.1};
 };
 
+template <typename Visitor>
+void visit_fields(OdometryModel& odometry, Visitor&& visit) {
+  visit("length_bias_sigma", odometry.length_bias_sigma);
+  visit("turn_bias_sigma_rad_per_m", odometry.turn_bias_sigma_rad_per_m);
+  visit("turn_bias_sigma", odometry.turn_bias_sigma);
+  visit("noise", odometry.noise);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const OdometryModel& odometry);
 

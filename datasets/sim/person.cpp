@@ -61,19 +61,21 @@ Grid<std::uint8_t> ink(const std::vector<Stroke>& strokes, const PlaneBox& paper
   return occupied;
 }
 
-void validate(const DistortionParams& params) {
-  require_above("px_per_m", params.px_per_m, 0.0);
-  require_in_range("px_per_m_log_sigma", params.px_per_m_log_sigma, 0.0, 2.0);
-  require_at_least("tilt_sigma_rad", params.tilt_sigma_rad, 0.0);
-  require_in_range("turned_share", params.turned_share, 0.0, 1.0);
-  require_in_range("proportion_log_sigma", params.proportion_log_sigma, 0.0, 2.0);
-  require_in_range("room_log_sigma", params.room_log_sigma, 0.0, 2.0);
-  require_in_range("corridor_log_mean", params.corridor_log_mean, -2.0, 2.0);
-  require_in_range("corridor_log_sigma", params.corridor_log_sigma, 0.0, 2.0);
-  require_at_least("room_shear_sigma", params.room_shear_sigma, 0.0);
-  require_above("straightness", params.straightness, 0.0);
-  require_above("evenness", params.evenness, 0.0);
-  require_in_range("bend_share", params.bend_share, 0.0, 1.0);
+}  // namespace
+
+void validate(const DistortionParams& distortion) {
+  require_above("px_per_m", distortion.px_per_m, 0.0);
+  require_in_range("px_per_m_log_sigma", distortion.px_per_m_log_sigma, 0.0, 2.0);
+  require_at_least("tilt_sigma_rad", distortion.tilt_sigma_rad, 0.0);
+  require_in_range("turned_share", distortion.turned_share, 0.0, 1.0);
+  require_in_range("proportion_log_sigma", distortion.proportion_log_sigma, 0.0, 2.0);
+  require_in_range("room_log_sigma", distortion.room_log_sigma, 0.0, 2.0);
+  require_in_range("corridor_log_mean", distortion.corridor_log_mean, -2.0, 2.0);
+  require_in_range("corridor_log_sigma", distortion.corridor_log_sigma, 0.0, 2.0);
+  require_at_least("room_shear_sigma", distortion.room_shear_sigma, 0.0);
+  require_above("straightness", distortion.straightness, 0.0);
+  require_above("evenness", distortion.evenness, 0.0);
+  require_in_range("bend_share", distortion.bend_share, 0.0, 1.0);
 }
 
 void validate(const PenParams& pen) {
@@ -93,8 +95,6 @@ void validate(const PenParams& pen) {
   require_in_range("furniture_share", pen.furniture_share, 0.0, 1.0);
   require_at_least("max_margin_px", pen.max_margin_px, 0.0);
 }
-
-}  // namespace
 
 void validate(const PersonParams& person) {
   validate(person.distortion);

@@ -23,6 +23,22 @@ struct DistortionParams {
   double bend_share = 0.025;           ///< spline displacement over the building's size, >= 0
 };
 
+template <typename Visitor>
+void visit_fields(DistortionParams& distortion, Visitor&& visit) {
+  visit("px_per_m", distortion.px_per_m);
+  visit("px_per_m_log_sigma", distortion.px_per_m_log_sigma);
+  visit("tilt_sigma_rad", distortion.tilt_sigma_rad);
+  visit("turned_share", distortion.turned_share);
+  visit("proportion_log_sigma", distortion.proportion_log_sigma);
+  visit("room_log_sigma", distortion.room_log_sigma);
+  visit("corridor_log_mean", distortion.corridor_log_mean);
+  visit("corridor_log_sigma", distortion.corridor_log_sigma);
+  visit("room_shear_sigma", distortion.room_shear_sigma);
+  visit("straightness", distortion.straightness);
+  visit("evenness", distortion.evenness);
+  visit("bend_share", distortion.bend_share);
+}
+
 /// How a person moves the pen and what is left out.
 struct PenParams {
   double min_stroke_px = 1.0;      ///< the pen's width is drawn once per drawing, >= 1
@@ -42,12 +58,39 @@ struct PenParams {
   double max_margin_px = 60.0;     ///< empty paper around the drawing, >= 0
 };
 
+template <typename Visitor>
+void visit_fields(PenParams& pen, Visitor&& visit) {
+  visit("min_stroke_px", pen.min_stroke_px);
+  visit("max_stroke_px", pen.max_stroke_px);
+  visit("wobble_px", pen.wobble_px);
+  visit("wobble_length_px", pen.wobble_length_px);
+  visit("end_error_px", pen.end_error_px);
+  visit("rounding_px", pen.rounding_px);
+  visit("one_go_share", pen.one_go_share);
+  visit("doubled_share", pen.doubled_share);
+  visit("thick_wall_share", pen.thick_wall_share);
+  visit("thick_wall_m", pen.thick_wall_m);
+  visit("left_out_share", pen.left_out_share);
+  visit("shut_door_share", pen.shut_door_share);
+  visit("door_log_sigma", pen.door_log_sigma);
+  visit("furniture_share", pen.furniture_share);
+  visit("max_margin_px", pen.max_margin_px);
+}
+
 struct PersonParams {
   DistortionParams distortion;
   PenParams pen;
 };
 
-/// Throws std::invalid_argument naming the field, its range and its value.
+template <typename Visitor>
+void visit_fields(PersonParams& person, Visitor&& visit) {
+  visit("distortion", person.distortion);
+  visit("pen", person.pen);
+}
+
+/// Throw std::invalid_argument naming the field, its range and its value.
+void validate(const DistortionParams& distortion);
+void validate(const PenParams& pen);
 void validate(const PersonParams& person);
 
 /// People who draw as measured on real drawings (docs/results/simulator.md).

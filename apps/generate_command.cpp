@@ -1,0 +1,242 @@
+#include "apps/generate_command.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/data_set_files.hpp"
+#include "apps/interrupt.hpp"
+#include "apps/output_folder.hpp"
+#include "apps/parallel.hpp"
+#include "apps/parameter_options.hpp"
+#include "apps/program.hpp"
+#include "apps/progress.hpp"
+#include "apps/statistics_table.hpp"
+#include "datasets/io/atomic_file.hpp"
+#include "datasets/io/sketch_io.hpp"
+#include "datasets/sim/data_set.hpp"
+#include "datasets/sim/drawing_statistics.hpp"
+
+namespace sketchloc {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum class PersonKind { Human, Tps, None };
+
+const std::map<std::string, BuildingKind> kBuildingKinds = {{"home", BuildingKind::Home},
+                                                            {"office", BuildingKind::Office},
+                                                            {"warehouse", BuildingKind::Warehouse}};
+const std::map<std::string, PersonKind> kPersonKinds = {
+    {"human", PersonKind::Human}, {"tps", PersonKind::Tps}, {"none", PersonKind::None}};
+
+/// All parameters; the person's are those of --person where nothing else is said.
+struct GenerateParams {
+  PersonParams person = human_person();
+  DriveParams drive;
+  LidarModel lidar;
+  OdometryModel odometry;
+  MapReadingParams map_reading;
+};
+
+template <typename Visitor>
+void visit_fields(GenerateParams& params, Visitor&& visit) {
+  visit("person", params.person);
+  visit("drive", params.drive);
+  visit("lidar", params.lidar);
+  visit("odometry", params.odometry);
+  visit("map_reading", params.map_reading);
+}
+
+struct GenerateOptions {
+  std::string kind = "office";
+  std::string person = "human";
+  fs::path map;
+  std::optional<double> cell_m;
+  std::uint64_t seed = 1;
+  std::size_t count = 1;
+  fs::path out;
+  bool force = false;
+  bool statistics = false;
+  unsigned jobs = 0;
+  ParameterOptions parameters;
+};
+
+GenerateParams parameters_of(const GenerateOptions& options) {
+  GenerateParams defaults;
+  defaults.person =
+      kPersonKinds.at(options.person) == PersonKind::Tps ? tps_person() : human_person();
+  return parameters_from<GenerateParams>(options.parameters, defaults);
+}
+
+/// The map as cells with their size: from the file, or from --cell-m.
+struct RealMap {
+  Grid<std::uint8_t> occupied;
+  double cell_m;
+};
+
+std::optional<RealMap> read_map(const GenerateOptions& options) {
+  if (options.map.empty()) {
+    return std::nullopt;
+  }
+  Sketch map = read_any_drawing(options.map);
+  if (!map.px_per_m && !options.cell_m) {
+    throw std::invalid_argument(options.map.string() +
+                                ": a picture has no scale; give --cell-m, the side of a pixel in "
+                                "metres, or a map_server YAML file");
+  }
+  return RealMap{std::move(map.occupied),
+                 options.cell_m.value_or(1.0 / map.px_per_m.value_or(1.0))};
+}
+
+/// One data set per seed, in a generated building or in the real one.
+class Generator {
+ public:
+  explicit Generator(const GenerateOptions& options)
+      : options_(options), params_(parameters_of(options)), map_(read_map(options)) {}
+
+  DataSet make(std::uint64_t seed) const {
+    throw_if_interrupted();
+    const DataSetParams params = data_set_params();
+    if (!map_) {
+      return generate_data_set(params, seed);
+    }
+    Rng rng = make_rng(seed);
+    const Building building =
+        building_from_map(map_->occupied, map_->cell_m, rng, params_.map_reading);
+    std::optional<DataSet> data_set = generate_data_set(building, params, seed);
+    if (!data_set) {
+      throw std::runtime_error(options_.map.string() +
+                               ": the robot cannot drive from place to place in this map; check "
+                               "--cell-m, or give a smaller --drive.robot_radius_m");
+    }
+    return *std::move(data_set);
+  }
+
+  RunDescription description(std::uint64_t seed) const {
+    RunDescription made_by{.command = "generate",
+                           .seed = seed,
+                           .inputs = {{"person", options_.person}},
+                           .parameters = to_config(params_)};
+    if (map_) {
+      made_by.inputs.emplace_back("map", options_.map.string());
+      made_by.inputs.emplace_back("cell-m", to_config(map_->cell_m).text);
+    } else {
+      made_by.inputs.emplace_back("kind", options_.kind);
+    }
+    return made_by;
+  }
+
+ private:
+  DataSetParams data_set_params() const {
+    const bool drawn = kPersonKinds.at(options_.person) != PersonKind::None;
+    return {.building = kBuildingKinds.at(options_.kind),
+            .person = drawn ? std::optional(params_.person) : std::nullopt,
+            .drive = params_.drive,
+            .lidar = params_.lidar,
+            .odometry = params_.odometry};
+  }
+
+  const GenerateOptions& options_;
+  GenerateParams params_;
+  std::optional<RealMap> map_;
+};
+
+/// A single data set lies in the folder itself, several in folders named by their seeds.
+void generate_files(const GenerateOptions& options) {
+  if (options.out.empty()) {
+    throw std::invalid_argument("generate needs --out DIR (or --statistics)");
+  }
+  const Generator generator(options);
+  OutputFolder out(options.out, options.force);
+  Progress progress("generate", options.count);
+  const auto generate_one = [&](std::size_t index) {
+    const std::uint64_t seed = options.seed + index;
+    const fs::path folder = options.count == 1 ? out / "" : out / ("seed_" + std::to_string(seed));
+    fs::create_directories(folder);
+    write_data_set(folder, generator.make(seed), generator.description(seed));
+  };
+  work_in_parallel(options.count, options.jobs, generate_one,
+                   [&](std::size_t done) { progress.update(done); });
+  write_atomically(out / "run.yaml", run_file_text(generator.description(options.seed)));
+  out.commit();
+  std::cout << options.count << (options.count == 1 ? " data set in " : " data sets in ")
+            << out.target().string() << "\n";
+}
+
+void print_statistics(const GenerateOptions& options) {
+  const Generator generator(options);
+  std::vector<DrawingStatistics> statistics(options.count);
+  Progress progress("measure", options.count);
+  const auto measure_one = [&](std::size_t index) {
+    const DataSet data_set = generator.make(options.seed + index);
+    statistics[index] = measure_drawing(
+        drawn_places(data_set.world_from_robot, data_set.drawing.sketch_from_world));
+  };
+  work_in_parallel(options.count, options.jobs, measure_one,
+                   [&](std::size_t done) { progress.update(done); });
+  std::cout << statistics_table(statistics);
+}
+
+void add_algorithm_options(CLI::App& command, GenerateOptions& options) {
+  const auto option = [&](const std::string& flag, auto& value, const std::string& help) {
+    return command.add_option(flag, value, help)->group(kAlgorithmGroup);
+  };
+  option("--kind", options.kind, "Building: home, office or warehouse")
+      ->check(CLI::IsMember(&kBuildingKinds))
+      ->capture_default_str();
+  option("--person", options.person,
+         "Who draws: human (as people do), tps (the plan under one thin plate spline) or none (the "
+         "true map)")
+      ->check(CLI::IsMember(&kPersonKinds))
+      ->capture_default_str();
+  option("--map", options.map, "A real building's map instead: picture or map_server YAML")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE");
+  option("--cell-m", options.cell_m, "Side of a pixel of --map in metres")
+      ->check(CLI::PositiveNumber);
+  option("--seed", options.seed, "Of the first data set; the next ones count on")
+      ->capture_default_str();
+  option("--count", options.count, "Data sets to make")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str();
+}
+
+void add_output_options(CLI::App& command, GenerateOptions& options) {
+  command.add_option("--out", options.out, "Folder for the data sets")
+      ->type_name("DIR")
+      ->group(kOutputGroup);
+  command.add_flag("--force", options.force, "Replace an earlier result in --out")
+      ->group(kOutputGroup);
+  command
+      .add_flag("--statistics", options.statistics,
+                "Print how the drawings distort the world instead of writing them")
+      ->group(kOutputGroup);
+  command.add_option("-j,--jobs", options.jobs, "Threads; 0: one per core")
+      ->group(kUsabilityGroup)
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_generate_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "generate", "Simulate buildings, people who draw them, and robots that drive through them.");
+  const auto options = std::make_shared<GenerateOptions>();
+  add_algorithm_options(*command, *options);
+  add_parameter_options(*command, to_config(GenerateParams{}), options->parameters);
+  add_output_options(*command, *options);
+  command->callback(
+      [options] { options->statistics ? print_statistics(*options) : generate_files(*options); });
+}
+
+}  // namespace sketchloc
