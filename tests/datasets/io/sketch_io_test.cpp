@@ -3,6 +3,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "datasets/io/sketch_writer.hpp"
 #include "tests/datasets/io/drawings.hpp"
 #include "tests/datasets/io/files.hpp"
 
@@ -176,6 +177,17 @@ TEST_F(ReadSketch, RefusesWhatIsNotAWholePicture) {
                   FailsWith("it is damaged, cut off"))
           << name << " " << left << " of " << whole.size();
     }
+  }
+}
+
+TEST_F(ReadSketch, GivesBackWhatWasWritten) {
+  for (const cv::Mat1b& mask : {drawn_strokes(), inverse(painted_rooms())}) {
+    const Sketch sketch = read("a.png", inverse(mask));
+    write_sketch(missing("b.png"), sketch);
+    const Sketch back = read_sketch(missing("b.png"));
+    EXPECT_EQ(back.kind, sketch.kind);
+    EXPECT_EQ(back.occupied, sketch.occupied);
+    EXPECT_EQ(overlap(back, mask), 1.0);
   }
 }
 
