@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "eval/bench/particle_window.hpp"
 #include "filter/beam_kernel.hpp"
 #include "tests/support/grids.hpp"
-#include "tests/support/particle_cloud.hpp"
 #include "tests/support/scalar_beam_model.hpp"
 
 namespace sketchloc {
@@ -32,32 +32,6 @@ Grid<std::uint8_t> drawing(std::int64_t size) {
                                static_cast<int>(size) / 10, 1);
 }
 
-testing::ParticleCloud cloud(std::int64_t particles, std::int64_t size, bool spread) {
-  const int side = static_cast<int>(size);
-  const double middle = 0.5 * static_cast<double>(size);
-  const auto count = static_cast<std::size_t>(particles);
-  return spread ? testing::spread_cloud(count, side, side, kScale, 1)
-                : testing::tracking_cloud(count, middle, middle, kScale, 1);
-}
-
-/// The next `count` of a million particles, so that every iteration finds the table as cold as a
-/// filter's update does.
-class Window {
- public:
-  Window(const testing::ParticleCloud& cloud, std::size_t count)
-      : all_(cloud.spans()), count_(count) {}
-
-  ParticleSpans next() {
-    from_ = from_ + 2 * count_ <= all_.size() ? from_ + count_ : 0;
-    return all_.subspan(from_, count_);
-  }
-
- private:
-  ParticleSpans all_;
-  std::size_t count_;
-  std::size_t from_ = 0;
-};
-
 void count_rays(benchmark::State& state, std::int64_t rays_per_iteration) {
   state.counters["rays"] = benchmark::Counter(
       static_cast<double>(rays_per_iteration * state.iterations()), benchmark::Counter::kIsRate);
@@ -66,11 +40,11 @@ void count_rays(benchmark::State& state, std::int64_t rays_per_iteration) {
 /// Arguments: particles, beams, side of the drawing, spread (1) or tracking (0).
 void ByTraversal(benchmark::State& state) {
   const Grid<std::uint8_t> occupied = drawing(state.range(2));
-  const auto particles = cloud(state.range(0), state.range(2), state.range(3) != 0);
+  bench::ParticleWindow window(state.range(0), state.range(2), state.range(3) != 0, kScale);
   const std::vector<Beam> beams = scan(state.range(1));
   for (auto _ : state) {
     benchmark::DoNotOptimize(
-        testing::score_by_traversal(occupied, {}, particles.spans(), beams, 1000.0));
+        testing::score_by_traversal(occupied, {}, window.next(), beams, 1000.0));
   }
   count_rays(state, state.range(0) * state.range(1));
 }
@@ -82,12 +56,10 @@ BENCHMARK(ByTraversal)
 void Score(benchmark::State& state) {
   const RangeTable table(drawing(state.range(2)));
   const BeamKernel kernel(table, BeamKernelParams{});
-  const auto count = static_cast<std::size_t>(state.range(0));
-  const auto particles = cloud(1'000'000, state.range(2), state.range(3) != 0);
-  Window window(particles, count);
+  bench::ParticleWindow window(state.range(0), state.range(2), state.range(3) != 0, kScale);
   PreparedBeams beams;
   kernel.prepare(scan(state.range(1)), beams);
-  std::vector<float> scores(count);
+  std::vector<float> scores(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
     kernel.score(window.next(), beams, scores);
     benchmark::DoNotOptimize(scores.data());
@@ -113,13 +85,10 @@ BENCHMARK(Score)
 void ScoreStrained(benchmark::State& state) {
   const RangeTable table(drawing(state.range(2)));
   const BeamKernel kernel(table, BeamKernelParams{.nothing_drawn = -0.8});
-  const auto count = static_cast<std::size_t>(state.range(0));
-  auto particles = cloud(1'000'000, state.range(2), state.range(3) != 0);
-  particles.strain(3);
-  Window window(particles, count);
+  bench::ParticleWindow window(state.range(0), state.range(2), state.range(3) != 0, kScale, true);
   PreparedBeams beams;
   kernel.prepare(scan(state.range(1)), beams);
-  std::vector<float> scores(count);
+  std::vector<float> scores(static_cast<std::size_t>(state.range(0)));
   for (auto _ : state) {
     kernel.score(window.next(), beams, scores);
     benchmark::DoNotOptimize(scores.data());

@@ -1,11 +1,12 @@
 #include "tests/support/scalar_beam_model.hpp"
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "tests/support/grid_traversal.hpp"
+#include "tests/support/local_map.hpp"
 
 namespace sketchloc::testing {
 namespace {
@@ -17,21 +18,6 @@ double log_kernel(const BeamKernelParams& params, const Beam& beam, double log_r
   }
   const double below = 0.5 * std::erfc(z / std::numbers::sqrt2);
   return std::log((1.0 - params.no_return_floor) * below + params.no_return_floor);
-}
-
-/// exp(log_scale) S R(heading) of ParticleSpans, by eigenvalues.
-Eigen::Matrix2d local_map(const ParticleSpans& particles, std::size_t i) {
-  const Eigen::Rotation2Dd rotation(static_cast<double>(particles.heading_rad[i]));
-  const double scale = std::exp(static_cast<double>(particles.log_scale[i]));
-  if (!particles.strained()) {
-    return scale * rotation.toRotationMatrix();
-  }
-  const double axial = particles.axial_strain[i];
-  const double diagonal = particles.diagonal_strain[i];
-  const Eigen::Rotation2Dd axes(0.5 * std::atan2(diagonal, axial));
-  const double size = std::hypot(axial, diagonal);
-  const Eigen::Vector2d ratios(std::exp(size), std::exp(-size));
-  return scale * (axes * ratios.asDiagonal() * axes.inverse() * rotation.toRotationMatrix());
 }
 
 }  // namespace
