@@ -78,7 +78,7 @@ void ModeFinder::find(const ParticleSet& particles, Estimate& estimate) {
     claim(particles, mode, radius_px);
     estimate.modes.push_back(mode);
   }
-  std::ranges::stable_sort(estimate.modes, std::greater<>(), &Mode::weight);
+  std::ranges::sort(estimate.modes, std::greater<>(), &Mode::weight);
   estimate.sketch_from_robot = estimate.modes.front().sketch_from_robot;
   estimate.covariance = estimate.modes.front().covariance;
 }

@@ -1,0 +1,204 @@
+#include "filter/localizer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <new>
+#include <numbers>
+#include <stdexcept>
+
+#include "motion/angles.hpp"
+#include "registration/ray_caster.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/matchers.hpp"
+
+namespace sketchloc {
+namespace {
+
+constexpr double kPxPerM = 20.0;
+
+/// Two rooms of different size with a door between them, drawn in true proportions.
+Sketch two_rooms() {
+  Sketch sketch;
+  sketch.occupied = Grid<std::uint8_t>(260, 160);
+  const auto wall = [&](int left, int bottom, int right, int top) {
+    for (int row = bottom; row <= top; ++row) {
+      for (int column = left; column <= right; ++column) {
+        sketch.occupied.at({column, row}) = 1;
+      }
+    }
+  };
+  wall(10, 10, 250, 11);
+  wall(10, 150, 250, 151);
+  wall(10, 10, 11, 151);
+  wall(250, 10, 251, 151);
+  wall(100, 10, 101, 60);  // the door is above this wall
+  wall(100, 90, 101, 151);
+  wall(180, 10, 181, 50);
+  return sketch;
+}
+
+struct Drive {
+  std::vector<Sim2> sketch_from_robot;
+  std::vector<Se2> odom_from_robot;
+  std::vector<Scan> scans;
+};
+
+/// From the left room through the door into the right one.
+Drive drive_through_the_door(const Sketch& sketch) {
+  const RayCaster caster(sketch.occupied);
+  Drive drive;
+  Sim2 sketch_from_robot = Sim2::from_xy_yaw_scale(40.0, 40.0, 0.8, kPxPerM);
+  Se2 odom_from_robot;
+  for (int step = 0; step < 40; ++step) {
+    Scan scan;
+    scan.time_s = step;
+    scan.first_angle_rad = -std::numbers::pi / 2.0;
+    scan.angle_step_rad = std::numbers::pi / 180.0;
+    scan.max_range_m = 80.0;
+    for (int beam = 0; beam <= 180; ++beam) {
+      const double heading_rad =
+          sketch_from_robot.yaw_rad() + scan.angle_rad(static_cast<std::size_t>(beam));
+      scan.ranges_m.push_back(static_cast<float>(
+          caster.range(sketch_from_robot.translation(), static_cast<float>(heading_rad), 1e4F) /
+          kPxPerM));
+    }
+    drive.scans.push_back(scan);
+    drive.sketch_from_robot.push_back(sketch_from_robot);
+    drive.odom_from_robot.push_back(odom_from_robot);
+    const Se2 robot_from_next = Se2::from_xy_yaw(0.2, 0.0, step < 20 ? -0.04 : 0.01);
+    sketch_from_robot = sketch_from_robot * robot_from_next;
+    odom_from_robot = odom_from_robot * robot_from_next;
+  }
+  return drive;
+}
+
+LocalizerParams small_params() {
+  LocalizerParams params;
+  params.particles = {.min_particles = 1500, .max_particles = 1500};
+  return params;
+}
+
+std::vector<StepReport> localize(Localizer& localizer, const Drive& drive) {
+  std::vector<StepReport> reports;
+  for (std::size_t i = 0; i < drive.scans.size(); ++i) {
+    reports.push_back(localizer.step(drive.scans[i], drive.odom_from_robot[i]));
+  }
+  return reports;
+}
+
+TEST(Localizer, FollowsTheRobotThroughADoor) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  Localizer localizer(sketch, small_params());
+  localizer.start_at(drive.sketch_from_robot.front());
+  const std::vector<StepReport> reports = localize(localizer, drive);
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Eigen::Vector2d error_px = reports[i].estimate.sketch_from_robot.translation() -
+                                     drive.sketch_from_robot[i].translation();
+    EXPECT_LT(error_px.norm() / kPxPerM, 1.0) << "at step " << i;
+  }
+}
+
+TEST(Localizer, GivesTheSameParticlesForAnyThreadCount) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  const auto run = [&](int jobs) {
+    LocalizerParams params = small_params();
+    params.particles = {.min_particles = 500, .max_particles = 1500};
+    params.recovery.base_share = 0.02;
+    params.recovery.max_share = 0.05;
+    params.jobs = jobs;
+    Localizer localizer(sketch, params);
+    localizer.start_at(drive.sketch_from_robot.front());
+    localize(localizer, drive);
+    return localizer.particles();
+  };
+  const ParticleSet one = run(1);
+  const ParticleSet four = run(4);
+  EXPECT_EQ(one.x_px, four.x_px);
+  EXPECT_EQ(one.heading_rad, four.heading_rad);
+  EXPECT_EQ(one.diagonal_strain, four.diagonal_strain);
+  EXPECT_EQ(one.log_weight, four.log_weight);
+}
+
+TEST(Localizer, AllocatesNothingInSteadyState) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  LocalizerParams params = small_params();
+  params.recovery.base_share = 0.02;
+  params.recovery.max_share = 0.05;
+  Localizer localizer(sketch, params);
+  localizer.start_at(drive.sketch_from_robot.front());
+  for (std::size_t i = 0; i < 10; ++i) {
+    localizer.step(drive.scans[i], drive.odom_from_robot[i]);
+  }
+  const std::size_t before = testing::allocation_count();
+  for (std::size_t i = 10; i < drive.scans.size(); ++i) {
+    localizer.step(drive.scans[i], drive.odom_from_robot[i]);
+  }
+  EXPECT_EQ(testing::allocation_count() - before, 0U);
+}
+
+TEST(Localizer, TakesNoEvidenceWhileTheRobotStands) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  Localizer localizer(sketch, small_params());
+  localizer.start_at(drive.sketch_from_robot.front());
+  EXPECT_TRUE(localizer.step(drive.scans[0], Se2()).updated);
+  EXPECT_FALSE(localizer.step(drive.scans[0], Se2()).updated);
+  EXPECT_FALSE(localizer.step(drive.scans[0], Se2::from_xy_yaw(0.05, 0.0, 0.0)).updated);
+  EXPECT_TRUE(localizer.step(drive.scans[0], Se2::from_xy_yaw(0.11, 0.0, 0.0)).updated);
+}
+
+TEST(Localizer, GoesOnByOdometryWhereAScanSaysNothing) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  Localizer localizer(sketch, small_params());
+  localizer.start_at(drive.sketch_from_robot.front());
+  localizer.step(drive.scans[0], drive.odom_from_robot[0]);
+  Scan blind = drive.scans[5];
+  blind.ranges_m.assign(blind.ranges_m.size(), std::numeric_limits<float>::quiet_NaN());
+  const StepReport& report = localizer.step(blind, drive.odom_from_robot[5]);
+  EXPECT_FALSE(report.updated);
+  EXPECT_THAT(report.estimate.sketch_from_robot, testing::IsNear(drive.sketch_from_robot[5], 15.0));
+  EXPECT_FALSE(localizer.step(Scan(), drive.odom_from_robot[6]).updated);
+}
+
+TEST(Localizer, FindsTheRobotWithoutAStart) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  LocalizerParams params = small_params();
+  params.particles = {.min_particles = 5000, .max_particles = 20000};
+  params.beams.exponent = 0.2;
+  Localizer localizer(sketch, params);
+  ASSERT_TRUE(localizer.start_anywhere(drive.scans.front()));
+  const std::vector<StepReport> reports = localize(localizer, drive);
+  const Eigen::Vector2d error_px = reports.back().estimate.sketch_from_robot.translation() -
+                                   drive.sketch_from_robot.back().translation();
+  EXPECT_LT(error_px.norm() / kPxPerM, 1.0);
+}
+
+TEST(Localizer, CannotStartAnywhereWhereStrokesEncloseNothing) {
+  Sketch sketch;
+  sketch.occupied = Grid<std::uint8_t>(50, 50);
+  sketch.occupied.at({25, 25}) = 1;
+  Localizer localizer(sketch, small_params());
+  EXPECT_FALSE(localizer.start_anywhere(Scan()));
+}
+
+TEST(LocalizerParams, NameTheFieldThatIsOutOfRange) {
+  LocalizerParams params;
+  params.beams.exponent = 2.0;
+  try {
+    validate(params);
+    FAIL() << "an exponent of 2 was accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find("exponent"), std::string::npos) << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace sketchloc
