@@ -1,8 +1,16 @@
 #include "filter/beam_model.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include "motion/validate.hpp"
 
 namespace sketchloc {
+namespace {
+
+constexpr double kLeastRangeM = 1e-3;  ///< the robot may stand on its own laser's end point
+
+}  // namespace
 
 void validate(const BeamModelParams& params) {
   validate(params.selection);
@@ -14,7 +22,12 @@ BeamModel::BeamModel(const RangeTable& table, const BeamModelParams& params)
     : params_((validate(params), params)), kernel_(table, params.kernel) {}
 
 std::size_t BeamModel::observe(const Scan& scan) {
-  select_beams(beams_, scan, params_.selection);
+  select_end_points(ends_in_robot_, scan, params_.selection);
+  beams_.clear();
+  for (const Eigen::Vector2d& end : ends_in_robot_) {
+    beams_.push_back({.bearing_rad = static_cast<float>(std::atan2(end.y(), end.x())),
+                      .range_m = static_cast<float>(std::max(end.norm(), kLeastRangeM))});
+  }
   kernel_.prepare(beams_, prepared_);
   return beams_.size();
 }

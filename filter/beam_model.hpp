@@ -37,6 +37,7 @@ class BeamModel {
  private:
   BeamModelParams params_;
   BeamKernel kernel_;
+  std::vector<Eigen::Vector2d> ends_in_robot_;
   std::vector<Beam> beams_;
   PreparedBeams prepared_;
 };

@@ -6,19 +6,15 @@
 #include "motion/validate.hpp"
 
 namespace sketchloc {
-namespace {
-
-constexpr double kLeastRangeM = 1e-3;
-
-}  // namespace
 
 void validate(const BeamSelection& selection) {
-  require_in_range("beams", selection.beams, 1, 1024);
+  require_in_range("beams", selection.beams, 1, 4096);
   require_above("max_range_m", selection.max_range_m, 0.0);
 }
 
-void select_beams(std::vector<Beam>& beams, const Scan& scan, const BeamSelection& selection) {
-  beams.clear();
+void select_end_points(std::vector<Eigen::Vector2d>& ends_in_robot, const Scan& scan,
+                       const BeamSelection& selection) {
+  ends_in_robot.clear();
   const auto readings = static_cast<int>(scan.ranges_m.size());
   const int sectors = std::min(selection.beams, readings);
   for (int sector = 0; sector < sectors; ++sector) {
@@ -28,12 +24,8 @@ void select_beams(std::vector<Beam>& beams, const Scan& scan, const BeamSelectio
       continue;
     }
     const double angle_rad = scan.angle_rad(middle);
-    const Eigen::Vector2d end_in_robot =
-        scan.robot_from_laser *
-        Eigen::Vector2d(range_m * std::cos(angle_rad), range_m * std::sin(angle_rad));
-    beams.push_back(
-        {.bearing_rad = static_cast<float>(std::atan2(end_in_robot.y(), end_in_robot.x())),
-         .range_m = static_cast<float>(std::max(end_in_robot.norm(), kLeastRangeM))});
+    ends_in_robot.push_back(scan.robot_from_laser * Eigen::Vector2d(range_m * std::cos(angle_rad),
+                                                                    range_m * std::sin(angle_rad)));
   }
 }
 

@@ -14,6 +14,22 @@ namespace {
 // What an engine is for, so that no two uses share a stream.
 enum Purpose : std::uint64_t { kStart, kPredict, kResample, kCandidates, kInject, kPurposes };
 
+/// Typical of drawings; only where the end points are scored in one without a scale.
+constexpr double kTypicalPxPerM = 20.0;
+
+std::variant<BeamModel, EndPointModel> make_model(const Sketch& sketch, const RangeTable& table,
+                                                  const LocalizerParams& params) {
+  if (params.measurement == Measurement::Beams) {
+    return BeamModel(table, params.beams);
+  }
+  return EndPointModel(sketch, sketch.px_per_m.value_or(kTypicalPxPerM), params.end_points);
+}
+
+double exponent_of(const LocalizerParams& params) {
+  return params.measurement == Measurement::Beams ? params.beams.exponent
+                                                  : params.end_points.exponent;
+}
+
 }  // namespace
 
 void validate(const MotionGate& gate) {
@@ -32,6 +48,7 @@ void validate(const StartSpread& spread) {
 void validate(const LocalizerParams& params) {
   validate(params.predict);
   validate(params.beams);
+  validate(params.end_points);
   validate(params.particles);
   validate(params.modes);
   validate(params.gate);
@@ -42,11 +59,24 @@ void validate(const LocalizerParams& params) {
   require_in_range("jobs", params.jobs, 1, 1024);
 }
 
+LocalizerParams metric_localizer_params() {
+  LocalizerParams params;
+  params.predict = metric_motion();
+  params.measurement = Measurement::EndPoints;
+  params.modes.radius_m = 1.0;
+  params.start = {.position_m = 0.3,
+                  .heading_rad = 0.1,
+                  .log_scale = 0.0,
+                  .log_mean_scale = 0.0,
+                  .strain = 0.0};
+  return params;
+}
+
 Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params)
     : params_((validate(params), params)),
       table_(sketch.occupied, params.table),
-      beam_model_(table_, params.beams),
       anywhere_(sketch, table_),
+      model_(make_model(sketch, table_, params)),
       mode_finder_(params.modes,
                    std::max(params.particles.max_particles, params.recovery.candidates)),
       evidence_(params.recovery),
@@ -59,8 +89,6 @@ Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params)
   parents_.resize(most);
   report_.estimate.modes.reserve(static_cast<std::size_t>(params.modes.max_modes));
 }
-
-Localizer::~Localizer() = default;
 
 void Localizer::start_at(const Sim2& sketch_from_robot) {
   const StartSpread& spread = params_.start;
@@ -94,7 +122,7 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
     predict_all(odometry_increment(*last_odom_from_robot_, odom_from_robot));
   }
   last_odom_from_robot_ = odom_from_robot;
-  const std::size_t beams = gate_opens() ? beam_model_.observe(scan) : 0;
+  const std::size_t beams = gate_opens() ? observe(scan) : 0;
   report_.updated = beams > 0;
   if (report_.updated) {
     weigh(beams);
@@ -123,11 +151,19 @@ void Localizer::predict_all(const Se2& robot_from_next) {
   });
 }
 
-void Localizer::weigh(std::size_t beams) {
-  for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t, ParticleRange range) {
-    beam_model_.score(particles_, range, scores_);
+std::size_t Localizer::observe(const Scan& scan) {
+  return std::visit([&](auto& model) { return model.observe(scan); }, model_);
+}
+
+void Localizer::score(const ParticleSet& particles) {
+  for_each_chunk(particles.size(), params_.jobs, [&](std::size_t, ParticleRange range) {
+    std::visit([&](const auto& model) { model.score(particles, range, scores_); }, model_);
   });
-  const double exponent = params_.beams.exponent;
+}
+
+void Localizer::weigh(std::size_t beams) {
+  score(particles_);
+  const double exponent = exponent_of(params_);
   double weight_sum = 0.0;
   double score_sum = 0.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -186,8 +222,8 @@ double Localizer::inject(std::size_t count) {
   for_each_chunk(candidates_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, steps_ * kPurposes + kCandidates, chunk);
     anywhere_.draw(candidates_, range, scale, params_.start.strain, rng);
-    beam_model_.score(candidates_, range, scores_);
   });
+  score(candidates_);
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     candidates_.log_weight[i] =
         static_cast<float>(params_.recovery.candidate_exponent) * scores_[i];

@@ -1,13 +1,14 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
+#include <variant>
 #include <vector>
 
 #include "datasets/scan.hpp"
 #include "datasets/sketch.hpp"
 #include "filter/beam_model.hpp"
+#include "filter/end_point_model.hpp"
 #include "filter/global_sampler.hpp"
 #include "filter/mode_finder.hpp"
 #include "filter/particle_set.hpp"
@@ -37,9 +38,17 @@ struct StartSpread {
 };
 void validate(const StartSpread& spread);
 
+/// What weighs the particles.
+enum class Measurement {
+  Beams,     ///< range-ratio beams: for drawings
+  EndPoints  ///< end-point likelihood field: for maps in true proportions
+};
+
 struct LocalizerParams {
   PredictParams predict;
+  Measurement measurement = Measurement::Beams;
   BeamModelParams beams;
+  EndPointModelParams end_points;
   KldParams particles;
   ModeParams modes;
   MotionGate gate;
@@ -51,6 +60,9 @@ struct LocalizerParams {
   int jobs = 1;  ///< threads; the result does not depend on it, >= 1
 };
 
+/// The parameters for a map in true proportions: nothing deforms, end points are scored.
+LocalizerParams metric_localizer_params();
+
 /// Throws std::invalid_argument naming the component and field, its range and its value.
 void validate(const LocalizerParams& params);
 
@@ -60,7 +72,6 @@ class Localizer {
  public:
   /// Throws std::invalid_argument if a parameter is out of range.
   Localizer(const Sketch& sketch, const LocalizerParams& params);
-  ~Localizer();
 
   /// Starts at a known pose.
   void start_at(const Sim2& sketch_from_robot);
@@ -71,10 +82,15 @@ class Localizer {
   /// Takes the next scan with the odometry at its instant. The report is valid until the next call.
   const StepReport& step(const Scan& scan, const Se2& odom_from_robot);
 
+  Localizer(const Localizer&) = delete;  // the model refers to the table
+  Localizer& operator=(const Localizer&) = delete;
+
   const ParticleSet& particles() const { return particles_; }
 
  private:
   void predict_all(const Se2& robot_from_next);
+  std::size_t observe(const Scan& scan);
+  void score(const ParticleSet& particles);
   void weigh(std::size_t beams);
   void resample_and_recover();
   double inject(std::size_t count);
@@ -82,8 +98,8 @@ class Localizer {
 
   LocalizerParams params_;
   RangeTable table_;
-  BeamModel beam_model_;
   GlobalSampler anywhere_;
+  std::variant<BeamModel, EndPointModel> model_;
   ModeFinder mode_finder_;
   EvidenceMonitor evidence_;
   BinTable bins_;

@@ -19,40 +19,38 @@ Scan half_turn_scan(std::size_t readings, float range_m) {
   return scan;
 }
 
-TEST(SelectBeams, SpreadsThemOverTheFieldOfView) {
-  std::vector<Beam> beams;
-  select_beams(beams, half_turn_scan(181, 2.0F), {.beams = 3});
-  ASSERT_EQ(beams.size(), 3U);
-  EXPECT_NEAR(beams[0].bearing_rad, -std::numbers::pi / 3.0, 0.02);
-  EXPECT_NEAR(beams[1].bearing_rad, 0.0, 0.02);
-  EXPECT_NEAR(beams[2].bearing_rad, std::numbers::pi / 3.0, 0.02);
-  EXPECT_NEAR(beams[1].range_m, 2.0, 1e-6);
+TEST(SelectEndPoints, SpreadsThemOverTheFieldOfView) {
+  std::vector<Eigen::Vector2d> ends;
+  select_end_points(ends, half_turn_scan(181, 2.0F), {.beams = 3});
+  ASSERT_EQ(ends.size(), 3U);
+  EXPECT_NEAR(std::atan2(ends[0].y(), ends[0].x()), -std::numbers::pi / 3.0, 0.02);
+  EXPECT_TRUE(ends[1].isApprox(Eigen::Vector2d(2.0, 0.0), 0.02));
+  EXPECT_NEAR(std::atan2(ends[2].y(), ends[2].x()), std::numbers::pi / 3.0, 0.02);
 }
 
-TEST(SelectBeams, LeavesOutWhatDidNotReturnOrIsTooFar) {
+TEST(SelectEndPoints, LeavesOutWhatDidNotReturnOrIsTooFar) {
   Scan scan = half_turn_scan(3, 5.0F);
   scan.ranges_m = {std::numeric_limits<float>::quiet_NaN(), 25.0F, 0.0F};
-  std::vector<Beam> beams;
-  select_beams(beams, scan, {.beams = 3, .max_range_m = 20.0});
-  EXPECT_EQ(beams.size(), 0U);
+  std::vector<Eigen::Vector2d> ends;
+  select_end_points(ends, scan, {.beams = 3, .max_range_m = 20.0});
+  EXPECT_EQ(ends.size(), 0U);
 }
 
-TEST(SelectBeams, TakesEveryReadingWhereThereAreFewer) {
-  std::vector<Beam> beams;
-  select_beams(beams, half_turn_scan(5, 2.0F), {.beams = 60});
-  EXPECT_EQ(beams.size(), 5U);
-  select_beams(beams, Scan(), {});
-  EXPECT_EQ(beams.size(), 0U);
+TEST(SelectEndPoints, TakesEveryReadingWhereThereAreFewer) {
+  std::vector<Eigen::Vector2d> ends;
+  select_end_points(ends, half_turn_scan(5, 2.0F), {.beams = 60});
+  EXPECT_EQ(ends.size(), 5U);
+  select_end_points(ends, Scan(), {});
+  EXPECT_EQ(ends.size(), 0U);
 }
 
-TEST(SelectBeams, SeesFromTheRobotNotFromTheLaser) {
+TEST(SelectEndPoints, SeesFromTheRobotNotFromTheLaser) {
   Scan scan = half_turn_scan(3, 2.0F);
   scan.robot_from_laser = Se2::from_xy_yaw(1.0, 0.0, std::numbers::pi);  // looks back
-  std::vector<Beam> beams;
-  select_beams(beams, scan, {.beams = 3});
-  ASSERT_EQ(beams.size(), 3U);
-  EXPECT_NEAR(std::abs(beams[1].bearing_rad), std::numbers::pi, 1e-6);  // middle reading
-  EXPECT_NEAR(beams[1].range_m, 1.0, 1e-6);                             // at x = 1 - 2
+  std::vector<Eigen::Vector2d> ends;
+  select_end_points(ends, scan, {.beams = 3});
+  ASSERT_EQ(ends.size(), 3U);
+  EXPECT_TRUE(ends[1].isApprox(Eigen::Vector2d(-1.0, 0.0), 1e-6));  // at x = 1 - 2
 }
 
 TEST(BeamSelection, RefusesWhatIsOutOfRange) {
