@@ -17,7 +17,7 @@ std::string joined(std::string_view path, std::string_view key) {
   throw std::invalid_argument(std::string(source) + ": " + what);
 }
 
-/// Edits (insert, delete, replace) from one word to another. [Levenshtein]
+/// Edits (insert, delete, replace) from one word to another. [Levenshtein66]
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   std::vector<std::size_t> row(to.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});

@@ -6,7 +6,7 @@
 
 namespace sketchloc {
 
-/// Small, fast, deterministic engine (xoshiro256++ by Blackman and Vigna), usable with the standard
+/// Small, fast, deterministic engine (xoshiro256++ [Blackman21]), usable with the standard
 /// distributions. Made only by make_rng, so that every draw is a function of seed, step and chunk.
 class Rng {
  public:
