@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace sketchloc {
@@ -40,10 +42,12 @@ TEST(WorkInParallel, ThrowsTheFirstFailureAndStopsEarly) {
 TEST(WorkInParallel, StopsWhereTheReportThrows) {
   const auto report = [](std::size_t) { throw std::runtime_error("interrupted"); };
   std::atomic<int> finished = 0;
-  EXPECT_THROW(work_in_parallel(
-                   1'000'000, 2, [&](std::size_t) { ++finished; }, report),
-               std::runtime_error);
-  EXPECT_LT(finished, 1'000'000);
+  const auto work = [&](std::size_t) {  // not over before the first report
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    ++finished;
+  };
+  EXPECT_THROW(work_in_parallel(10'000, 2, work, report), std::runtime_error);
+  EXPECT_LT(finished, 10'000);
 }
 
 }  // namespace
