@@ -7,10 +7,16 @@
 #include <span>
 #include <utility>
 
+#include "motion/check.hpp"
 #include "motion/validate.hpp"
 
 namespace sketchloc {
 namespace {
+
+const MatchedOdometryParams& validated(const MatchedOdometryParams& params) {
+  validate(params);
+  return params;
+}
 
 Eigen::Vector3d wheel_sigma(const Se2& raw_increment, const WheelPrior& wheels) {
   const Eigen::Vector3d floor(wheels.floor_m, wheels.floor_m, wheels.floor_rad);
@@ -47,13 +53,17 @@ bool prior_decides_somewhere(const Eigen::Matrix3d& scan_information,
 
 }  // namespace
 
+void validate(const WheelPrior& wheels) {
+  validate(wheels.noise);
+  require_above("floor_m", wheels.floor_m, 0.0);
+  require_above("floor_rad", wheels.floor_rad, 0.0);
+}
+
 void validate(const MatchedOdometryParams& params) {
   validate(params.surface);
   validate(params.search);
   validate(params.match);
-  validate(params.wheels.noise);
-  require_above("floor_m", params.wheels.floor_m, 0.0);
-  require_above("floor_rad", params.wheels.floor_rad, 0.0);
+  validate(params.wheels);
   require_above("merge_cell_m", params.merge_cell_m, 0.0);
   require_above("search_radius_m", params.search_radius_m, 0.0);
   require_above("keyframe_way_m", params.keyframe_way_m, 0.0);
@@ -63,13 +73,16 @@ void validate(const MatchedOdometryParams& params) {
 }
 
 MatchedOdometry::MatchedOdometry(const MatchedOdometryParams& params)
-    : params_((validate(params), params)),
+    : params_(validated(params)),
       search_(params.search),
       merger_(params.merge_cell_m),
       submap_(params.search_radius_m),
       submap_grid_(params.search) {}
 
 MatchedStep MatchedOdometry::step(const Scan& scan, const Se2& raw_odom_from_robot) {
+  check(
+      raw_odom_from_robot.translation().allFinite() && std::isfinite(raw_odom_from_robot.yaw_rad()),
+      "odometry is finite");
   std::vector<SurfacePoint> points_in_robot = surface_points_in_robot(scan, params_.surface);
   MatchedStep result;
   if (started_) {
@@ -150,8 +163,8 @@ void MatchedOdometry::remember(std::vector<SurfacePoint> points_in_robot) {
         keyframe.odom_from_robot.translation() - odom_from_robot_.translation();
     return way.norm() > params_.submap_radius_m;
   };
-  while (keyframes_.size() > static_cast<std::size_t>(params_.max_keyframes) ||
-         is_far(keyframes_.front())) {
+  std::erase_if(keyframes_, is_far);
+  if (keyframes_.size() > static_cast<std::size_t>(params_.max_keyframes)) {
     keyframes_.pop_front();
   }
   rebuild_submap();

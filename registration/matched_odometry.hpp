@@ -24,6 +24,9 @@ struct WheelPrior {
   double floor_rad = 0.015;  ///< the same for the heading, > 0
 };
 
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const WheelPrior& wheels);
+
 struct MatchedOdometryParams {
   SurfaceParams surface;
   PoseSearchParams search;

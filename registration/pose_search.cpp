@@ -50,22 +50,46 @@ int half_window_cells(double half_width_m, const PoseSearchParams& params) {
 /// late more often than a Gaussian allows.
 double heavy_tail(double square) { return std::log1p(0.5 * square); }
 
-/// Keeps the local maxima over the heading, best first.
-std::vector<PoseCandidate> peaks(std::span<const PoseCandidate> by_heading, int max_candidates) {
-  std::vector<PoseCandidate> best;
-  for (std::size_t i = 0; i < by_heading.size(); ++i) {
-    const double score = by_heading[i].score;
-    const bool beats_left = i == 0 || score > by_heading[i - 1].score;
-    const bool beats_right = i + 1 == by_heading.size() || score >= by_heading[i + 1].score;
-    if (beats_left && beats_right) {
-      best.push_back(by_heading[i]);
+/// Whether a score of a square table is at least that of its neighbours.
+bool is_peak(std::span<const double> scores, int width, int row, int column) {
+  const auto score_at = [&](int r, int c) {
+    return scores[static_cast<std::size_t>(r * width + c)];
+  };
+  for (int r = std::max(row - 1, 0); r <= std::min(row + 1, width - 1); ++r) {
+    for (int c = std::max(column - 1, 0); c <= std::min(column + 1, width - 1); ++c) {
+      if (score_at(r, c) > score_at(row, column)) {
+        return false;
+      }
     }
   }
-  std::stable_sort(best.begin(), best.end(), [](const PoseCandidate& a, const PoseCandidate& b) {
-    return a.score > b.score;
-  });
-  best.resize(std::min(best.size(), static_cast<std::size_t>(max_candidates)));
-  return best;
+  return true;
+}
+
+bool is_near(const Se2& a, const Se2& b, const PoseSearchParams& params) {
+  const Se2 a_from_b = a.inverse() * b;
+  return a_from_b.translation().norm() < params.candidate_gap_m &&
+         std::abs(a_from_b.yaw_rad()) < params.candidate_gap_rad;
+}
+
+/// The best ones that are not near a better one.
+std::vector<PoseCandidate> distinct(std::vector<PoseCandidate> candidates,
+                                    const PoseSearchParams& params) {
+  std::stable_sort(
+      candidates.begin(), candidates.end(),
+      [](const PoseCandidate& a, const PoseCandidate& b) { return a.score > b.score; });
+  std::vector<PoseCandidate> kept;
+  for (const PoseCandidate& candidate : candidates) {
+    const bool is_new = std::ranges::none_of(kept, [&](const PoseCandidate& better) {
+      return is_near(better.odom_from_robot, candidate.odom_from_robot, params);
+    });
+    if (is_new) {
+      kept.push_back(candidate);
+    }
+    if (kept.size() == static_cast<std::size_t>(params.max_candidates)) {
+      break;
+    }
+  }
+  return kept;
 }
 
 }  // namespace
@@ -80,6 +104,8 @@ void validate(const PoseSearchParams& params) {
   require_in_range("max_turn_rad", params.max_turn_rad, params.min_turn_rad, std::numbers::pi);
   require_above("blur_m", params.blur_m, 0.0);
   require_above("point_weight", params.point_weight, 0.0);
+  require_above("candidate_gap_m", params.candidate_gap_m, 0.0);
+  require_above("candidate_gap_rad", params.candidate_gap_rad, 0.0);
   require_at_least("max_candidates", params.max_candidates, 1.0);
 }
 
@@ -140,27 +166,31 @@ void PoseSearch::add_up(std::span<const SurfacePoint> points_in_robot, const Sur
   }
 }
 
-PoseCandidate PoseSearch::best_shift(std::span<const SurfacePoint> points_in_robot,
-                                     const SurfaceGrid& surfaces, const Se2& odom_from_robot,
-                                     const Eigen::Vector2d& prior_sigma_m) {
-  const int half_window = half_window_cells(params_.sigmas * prior_sigma_m.maxCoeff(), params_);
-  add_up(points_in_robot, surfaces, odom_from_robot, half_window);
+void PoseSearch::collect_peaks(const Se2& odom_from_robot, double heading_cost,
+                               const Eigen::Vector2d& prior_sigma_m, int half_window) {
+  const int width = 2 * half_window + 1;
   const Eigen::Matrix2d robot_from_odom_rotation = odom_from_robot.rotation_matrix().transpose();
-  PoseCandidate best{odom_from_robot, -std::numeric_limits<double>::infinity()};
-  const std::uint32_t* sum = sums_.data();
-  for (int row = -half_window; row <= half_window; ++row) {
-    for (int column = -half_window; column <= half_window; ++column, ++sum) {
-      const Eigen::Vector2d shift_in_odom = Eigen::Vector2d(column, row) * params_.cell_m;
-      const Eigen::Vector2d shift_in_robot = robot_from_odom_rotation * shift_in_odom;
-      const double prior = -heavy_tail(shift_in_robot.cwiseQuotient(prior_sigma_m).squaredNorm());
-      const double score = prior + params_.point_weight * *sum / kFullScore;
-      if (score > best.score) {
-        const Eigen::Vector2d position = odom_from_robot.translation() + shift_in_odom;
-        best = {Se2::from_xy_yaw(position.x(), position.y(), odom_from_robot.yaw_rad()), score};
+  const auto shift_in_odom = [&](int row, int column) -> Eigen::Vector2d {
+    return Eigen::Vector2d(column - half_window, row - half_window) * params_.cell_m;
+  };
+  scores_.resize(sums_.size());
+  for (int row = 0; row < width; ++row) {
+    for (int column = 0; column < width; ++column) {
+      const Eigen::Vector2d shift_in_robot = robot_from_odom_rotation * shift_in_odom(row, column);
+      const std::size_t i = static_cast<std::size_t>(row * width + column);
+      scores_[i] = params_.point_weight * sums_[i] / kFullScore - heading_cost -
+                   heavy_tail(shift_in_robot.cwiseQuotient(prior_sigma_m).squaredNorm());
+    }
+  }
+  for (int row = 0; row < width; ++row) {
+    for (int column = 0; column < width; ++column) {
+      if (is_peak(scores_, width, row, column)) {
+        const Eigen::Vector2d position = odom_from_robot.translation() + shift_in_odom(row, column);
+        peaks_.push_back({Se2::from_xy_yaw(position.x(), position.y(), odom_from_robot.yaw_rad()),
+                          scores_[static_cast<std::size_t>(row * width + column)]});
       }
     }
   }
-  return best;
 }
 
 std::vector<PoseCandidate> PoseSearch::search(std::span<const SurfacePoint> points_in_robot,
@@ -173,16 +203,17 @@ std::vector<PoseCandidate> PoseSearch::search(std::span<const SurfacePoint> poin
   const double half_turn_rad =
       std::clamp(params_.sigmas * prior_sigma.z(), params_.min_turn_rad, params_.max_turn_rad);
   const int half_steps = static_cast<int>(std::ceil(half_turn_rad / params_.heading_step_rad));
-  std::vector<PoseCandidate> by_heading;
-  by_heading.reserve(static_cast<std::size_t>(2 * half_steps + 1));
+  const int half_window =
+      half_window_cells(params_.sigmas * prior_sigma.head<2>().maxCoeff(), params_);
+  peaks_.clear();
   for (int step = -half_steps; step <= half_steps; ++step) {
     const double turn_rad = step * params_.heading_step_rad;
     const Se2 turned = prior_odom_from_robot * Se2::from_xy_yaw(0.0, 0.0, turn_rad);
-    PoseCandidate candidate = best_shift(points_in_robot, surfaces, turned, prior_sigma.head<2>());
-    candidate.score -= heavy_tail(std::pow(turn_rad / prior_sigma.z(), 2));
-    by_heading.push_back(candidate);
+    add_up(points_in_robot, surfaces, turned, half_window);
+    collect_peaks(turned, heavy_tail(std::pow(turn_rad / prior_sigma.z(), 2)),
+                  prior_sigma.head<2>(), half_window);
   }
-  return peaks(by_heading, params_.max_candidates);
+  return distinct(peaks_, params_);
 }
 
 }  // namespace sketchloc

@@ -24,7 +24,9 @@ struct PoseSearchParams {
   double blur_m = 0.1;             ///< 1-sigma width of a surface in the grid, > 0
   double point_weight = 0.15;      ///< log-likelihood of one point on a surface, > 0; well below
                                    ///< its own because neighbours tell the same
-  int max_candidates = 4;          ///< >= 1
+  double candidate_gap_m = 0.25;   ///< candidates nearer than this and
+  double candidate_gap_rad = 0.1;  ///< less turned than this count as one, > 0
+  int max_candidates = 8;          ///< >= 1
 };
 
 /// Throws std::invalid_argument naming the field, its range and its value.
@@ -63,7 +65,7 @@ class PoseSearch {
   /// Throws std::invalid_argument if a parameter is out of range.
   explicit PoseSearch(const PoseSearchParams& params = {});
 
-  /// The best local maxima over the heading, best first; at least one unless the grid or the scan
+  /// The best local maxima, best first; at least one unless the grid or the scan
   /// is empty. The grid must have the same parameters. Sigma: (x m, y m, yaw rad) of the prior in
   /// the robot frame.
   std::vector<PoseCandidate> search(std::span<const SurfacePoint> points_in_robot,
@@ -71,14 +73,17 @@ class PoseSearch {
                                     const Eigen::Vector3d& prior_sigma);
 
  private:
-  PoseCandidate best_shift(std::span<const SurfacePoint> points_in_robot,
-                           const SurfaceGrid& surfaces, const Se2& odom_from_robot,
-                           const Eigen::Vector2d& prior_sigma_m);
   void add_up(std::span<const SurfacePoint> points_in_robot, const SurfaceGrid& surfaces,
               const Se2& odom_from_robot, int half_window);
 
+  void collect_peaks(const Se2& odom_from_robot, double heading_cost,
+                     const Eigen::Vector2d& prior_sigma_m, int half_window);
+
   PoseSearchParams params_;
-  std::vector<std::uint32_t> sums_;  // one per shift, row by row
+  // Of one heading, one per shift, row by row:
+  std::vector<std::uint32_t> sums_;
+  std::vector<double> scores_;
+  std::vector<PoseCandidate> peaks_;  // of all headings
 };
 
 }  // namespace sketchloc

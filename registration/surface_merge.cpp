@@ -16,17 +16,17 @@ SurfaceMerger::Key SurfaceMerger::key_of(const SurfacePoint& surface) const {
   // Eighth of the circle by three comparisons: much cheaper than atan2.
   const double x = surface.normal.x();
   const double y = surface.normal.y();
-  const int direction =
+  const std::int64_t direction =
       (x >= 0.0 ? 1 : 0) + (y >= 0.0 ? 2 : 0) + (std::abs(x) >= std::abs(y) ? 4 : 0);
-  return {static_cast<std::int32_t>(std::floor(surface.point.x() / cell_m_)),
-          static_cast<std::int32_t>(std::floor(surface.point.y() / cell_m_)), direction};
+  return {static_cast<std::int64_t>(std::floor(surface.point.x() / cell_m_)),
+          static_cast<std::int64_t>(std::floor(surface.point.y() / cell_m_)), direction};
 }
 
 SurfaceMerger::Bin& SurfaceMerger::bin_of(const Key& key) {
   const std::size_t mask = slots_.size() - 1;
-  const std::uint64_t mixed = (static_cast<std::uint32_t>(key.column) * 0x9E3779B97F4A7C15ULL) ^
-                              (static_cast<std::uint32_t>(key.row) * 0xC2B2AE3D27D4EB4FULL) ^
-                              (static_cast<std::uint32_t>(key.direction) * 0x165667B19E3779F9ULL);
+  const std::uint64_t mixed = (static_cast<std::uint64_t>(key.column) * 0x9E3779B97F4A7C15ULL) ^
+                              (static_cast<std::uint64_t>(key.row) * 0xC2B2AE3D27D4EB4FULL) ^
+                              (static_cast<std::uint64_t>(key.direction) * 0x165667B19E3779F9ULL);
   for (std::size_t slot = (mixed >> 32) & mask;; slot = (slot + 1) & mask) {
     if (slots_[slot] == 0) {
       bins_.push_back({key, 0.0, {Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()}});

@@ -22,9 +22,9 @@ class SurfaceMerger {
 
  private:
   struct Key {
-    std::int32_t column = 0;
-    std::int32_t row = 0;
-    std::int32_t direction = 0;  // eighth of the circle that the normal points into
+    std::int64_t column = 0;
+    std::int64_t row = 0;
+    std::int64_t direction = 0;  // eighth of the circle that the normal points into
     bool operator==(const Key&) const = default;
   };
   struct Bin {
