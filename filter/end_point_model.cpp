@@ -1,6 +1,8 @@
 #include "filter/end_point_model.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "motion/validate.hpp"
 #include "registration/distance_field.hpp"
@@ -8,10 +10,30 @@
 namespace sketchloc {
 namespace {
 
+/// Distance from each cell's centre to the nearest border between a stroke and the rest. Beams end
+/// on a wall's face, not within it: with the distance to occupied cells, zero all through the wall,
+/// a robot that looks one way is drawn towards what it sees by half a cell and more.
+Grid<float> distance_to_face_px(const Grid<std::uint8_t>& occupied) {
+  Grid<std::uint8_t> free(occupied.width(), occupied.height());
+  for (int row = 0; row < occupied.height(); ++row) {
+    std::ranges::transform(occupied.row(row), free.row(row).begin(),
+                           [](std::uint8_t cell) { return cell == 0 ? 1 : 0; });
+  }
+  Grid<float> distance_px = distance_field_px(occupied);
+  const Grid<float> depth_px = distance_field_px(free);
+  for (int row = 0; row < occupied.height(); ++row) {
+    const std::span<float> cells = distance_px.row(row);
+    std::ranges::transform(cells, depth_px.row(row), cells.begin(), [](float away, float deep) {
+      return std::max(away, deep) - 0.5F;  // one of both is zero
+    });
+  }
+  return distance_px;
+}
+
 EndPointKernel make_kernel(const Sketch& sketch, double px_per_m,
                            const EndPointModelParams& params) {
   const EndPointParams field{.sigma_px = params.sigma_m * px_per_m, .floor = params.floor};
-  return {likelihood_field(distance_field_px(sketch.occupied), field), std::log(params.floor)};
+  return {likelihood_field(distance_to_face_px(sketch.occupied), field), std::log(params.floor)};
 }
 
 }  // namespace

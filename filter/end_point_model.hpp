@@ -16,9 +16,9 @@ namespace sketchloc {
 /// that fails: any shrunken scan fits dense strokes. See EndPointKernel.
 struct EndPointModelParams {
   BeamSelection selection{.beams = 180, .max_range_m = 80.0};
-  double sigma_m = 0.1;   ///< of the distance to the nearest stroke, > 0
+  double sigma_m = 0.07;  ///< of the distance to the nearest face of a stroke, > 0
   double floor = 0.1;     ///< share of beams that say nothing, in (0, 1]
-  double exponent = 0.1;  ///< tempers the beams of one scan, which are correlated, in (0, 1]
+  double exponent = 0.2;  ///< tempers the beams of one scan, which are correlated, in (0, 1]
 };
 void validate(const EndPointModelParams& params);
 

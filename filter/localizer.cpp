@@ -30,6 +30,20 @@ double exponent_of(const LocalizerParams& params) {
                                                   : params.end_points.exponent;
 }
 
+/// Log of the radius of a circle as large as what the scan saw; GlobalSampler's counterpart.
+double log_visible_radius_m(const Scan& scan) {
+  double sum_squares = 0.0;
+  int returns = 0;
+  for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
+    if (scan.is_return(beam)) {
+      const double range_m = scan.ranges_m[beam];
+      sum_squares += range_m * range_m;
+      ++returns;
+    }
+  }
+  return sum_squares > 0.0 ? 0.5 * std::log(sum_squares / returns) : 0.0;
+}
+
 }  // namespace
 
 void validate(const MotionGate& gate) {
@@ -87,6 +101,9 @@ Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params)
   }
   scores_.resize(most);
   parents_.resize(most);
+  if (sketch.px_per_m) {
+    log_px_per_m_ = std::log(*sketch.px_per_m);
+  }
   report_.estimate.modes.reserve(static_cast<std::size_t>(params.modes.max_modes));
 }
 
@@ -131,7 +148,8 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
   report_.particles = particles_.size();
   mode_finder_.find(particles_, report_.estimate);
   if (report_.updated) {
-    resample_and_recover();
+    resample();
+    recover();
   }
   ++steps_;
   return report_;
@@ -180,84 +198,92 @@ void Localizer::weigh(std::size_t beams) {
   updated_once_ = true;
 }
 
-void Localizer::resample_and_recover() {
-  if (report_.effective_particles <
-      params_.resample_below * static_cast<double>(particles_.size())) {
-    report_.resampled = true;
-    Rng rng = make_rng(params_.seed, steps_ * kPurposes + kResample);
-    const std::span<std::uint32_t> all(parents_);
-    const auto most = all.first(params_.particles.max_particles);
-    systematic_parents(particles_.log_weight, most, rng);
-    bins_.clear();
-    const double side_px = params_.particles.bin_m * report_.estimate.sketch_from_robot.scale();
-    for (const std::uint32_t parent : most) {
-      bins_.add(pose_bin(particles_.x_px[parent], particles_.y_px[parent],
-                         particles_.heading_rad[parent], side_px, params_.particles.bin_rad),
-                1.0);
-    }
-    const auto parents = all.first(kld_count(bins_.size(), params_.particles));
-    systematic_parents(particles_.log_weight, parents, rng);
-    resampled_.resize(parents.size());
-    for (std::size_t i = 0; i < parents.size(); ++i) {
-      resampled_.assign(i, particles_, parents[i]);
-      resampled_.log_weight[i] = 0.0F;
-    }
-    std::swap(particles_, resampled_);
-    const auto count = static_cast<std::size_t>(evidence_.injection_share() *
-                                                static_cast<double>(particles_.size()));
-    if (count > 0 && !anywhere_.empty()) {
-      report_.injected_share = inject(count);
-    }
+void Localizer::resample() {
+  report_.resampled =
+      report_.effective_particles < params_.resample_below * static_cast<double>(particles_.size());
+  if (!report_.resampled) {
+    return;
+  }
+  Rng rng = make_rng(params_.seed, steps_ * kPurposes + kResample);
+  const std::span<std::uint32_t> all(parents_);
+  const auto most = all.first(params_.particles.max_particles);
+  systematic_parents(particles_.log_weight, most, rng);
+  const auto parents = all.first(kld_count(count_bins(most), params_.particles));
+  systematic_parents(particles_.log_weight, parents, rng);
+  resampled_.resize(parents.size());
+  for (std::size_t i = 0; i < parents.size(); ++i) {
+    resampled_.assign(i, particles_, parents[i]);
+    resampled_.log_weight[i] = 0.0F;
+  }
+  std::swap(particles_, resampled_);
+}
+
+std::size_t Localizer::count_bins(std::span<const std::uint32_t> parents) {
+  bins_.clear();
+  const double side_px = params_.particles.bin_m * report_.estimate.sketch_from_robot.scale();
+  for (const std::uint32_t parent : parents) {
+    bins_.add(pose_bin(particles_.x_px[parent], particles_.y_px[parent],
+                       particles_.heading_rad[parent], side_px, params_.particles.bin_rad),
+              1.0);
+  }
+  return bins_.size();
+}
+
+void Localizer::recover() {
+  if (anywhere_.empty() || !report_.resampled) {
+    return;  // between resamplings the weights differ: newcomers of weight one would win
+  }
+  Rng rng = make_rng(params_.seed, steps_ * kPurposes + kInject);
+  const double expected = evidence_.injection_share() * static_cast<double>(particles_.size());
+  // Rounded at random, so that shares below one particle count too.
+  const auto count = static_cast<std::size_t>(expected + uniform(rng));
+  if (count > 0) {
+    draw_candidates();
+    replace_by_candidates(count, rng);
+    report_.injected_share = static_cast<double>(count) / static_cast<double>(particles_.size());
   }
 }
 
-double Localizer::inject(std::size_t count) {
+void Localizer::draw_candidates() {
   candidates_.resize(params_.recovery.candidates);
   double log_mean = 0.0;
-  for (std::size_t i = 0; i < particles_.size(); ++i) {
-    log_mean += particles_.log_mean_scale[i];
+  for (const float log_mean_scale : particles_.log_mean_scale) {
+    log_mean += log_mean_scale;
   }
   const ScalePrior scale{.log_px_per_m = log_mean / static_cast<double>(particles_.size()),
-                         .sigma = 0.2};
+                         .sigma = params_.start.log_mean_scale};
   for_each_chunk(candidates_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, steps_ * kPurposes + kCandidates, chunk);
     anywhere_.draw(candidates_, range, scale, params_.start.strain, rng);
   });
   score(candidates_);
+  const auto exponent = static_cast<float>(params_.recovery.candidate_exponent);
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    candidates_.log_weight[i] =
-        static_cast<float>(params_.recovery.candidate_exponent) * scores_[i];
+    candidates_.log_weight[i] = exponent * scores_[i];
   }
   normalise(candidates_);
-  Rng rng = make_rng(params_.seed, steps_ * kPurposes + kInject);
+}
+
+void Localizer::replace_by_candidates(std::size_t count, Rng& rng) {
   const std::span<std::uint32_t> parents(parents_.data(), count);
   systematic_parents(candidates_.log_weight, parents, rng);
-  // Systematic order is arbitrary with respect to place: an even spread of victims is unbiased.
   const double spacing = static_cast<double>(particles_.size()) / static_cast<double>(count);
   const double offset = uniform(rng);
   for (std::size_t k = 0; k < count; ++k) {
     const auto victim = static_cast<std::size_t>((static_cast<double>(k) + offset) * spacing);
-    particles_.assign(std::min(victim, particles_.size() - 1), candidates_, parents[k]);
-    particles_.log_weight[std::min(victim, particles_.size() - 1)] = 0.0F;
+    particles_.assign(victim, candidates_, parents[k]);
+    particles_.log_weight[victim] = 0.0F;
   }
-  return static_cast<double>(count) / static_cast<double>(particles_.size());
 }
 
 bool Localizer::start_anywhere(const Scan& first_scan) {
   if (anywhere_.empty()) {
     return false;
   }
-  double mean_square_m = 0.0;
-  int returns = 0;
-  for (std::size_t beam = 0; beam < first_scan.ranges_m.size(); ++beam) {
-    if (first_scan.is_return(beam)) {
-      mean_square_m += static_cast<double>(first_scan.ranges_m[beam]) * first_scan.ranges_m[beam];
-      ++returns;
-    }
-  }
-  const double log_visible_m = returns > 0 ? 0.5 * std::log(mean_square_m / returns) : 1.0;
-  const ScalePrior scale{.log_px_per_m = anywhere_.median_log_visible_radius() - log_visible_m,
-                         .sigma = 0.35};
+  const ScalePrior scale{.log_px_per_m = log_px_per_m_ ? *log_px_per_m_
+                                                       : anywhere_.median_log_visible_radius() -
+                                                             log_visible_radius_m(first_scan),
+                         .sigma = params_.start.log_mean_scale};
   particles_.resize(params_.particles.max_particles);
   for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, kStart, chunk);

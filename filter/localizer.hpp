@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <variant>
 #include <vector>
 
@@ -92,8 +93,11 @@ class Localizer {
   std::size_t observe(const Scan& scan);
   void score(const ParticleSet& particles);
   void weigh(std::size_t beams);
-  void resample_and_recover();
-  double inject(std::size_t count);
+  void resample();
+  std::size_t count_bins(std::span<const std::uint32_t> parents);
+  void recover();
+  void draw_candidates();
+  void replace_by_candidates(std::size_t count, Rng& rng);
   bool gate_opens() const;
 
   LocalizerParams params_;
@@ -110,6 +114,7 @@ class Localizer {
   std::vector<float> scores_;
   std::vector<std::uint32_t> parents_;
 
+  std::optional<double> log_px_per_m_;  ///< of a map with a known scale
   std::optional<Se2> last_odom_from_robot_;
   std::size_t steps_ = 0;
   double way_since_update_m_ = 0.0;

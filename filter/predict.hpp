@@ -12,11 +12,11 @@ namespace sketchloc {
 /// are 1-sigma after one metre and grow with the square root of the way. Fitted together on the
 /// Intel and Belgioioso drawings, see docs/results/real.md.
 struct DeformationWalk {
-  double length_per_m = 0.4;     ///< error of drawn lengths along the way, >= 0
+  double length_per_m = 0.3;     ///< error of drawn lengths along the way, >= 0
   double shear_per_m = 0.2;      ///< the same across the way, >= 0
   double heading_rad = 0.05;     ///< walk of the local rotation, >= 0
-  double log_scale = 0.1;        ///< walk of the local log scale, >= 0
-  double scale_memory_m = 6.0;   ///< way after which the local scale returns to its mean, > 0
+  double log_scale = 0.08;       ///< walk of the local log scale, >= 0
+  double scale_memory_m = 9.0;   ///< way after which the local scale returns to its mean, > 0
   double log_mean_scale = 0.03;  ///< walk of that mean itself, >= 0
   double strain = 0.15;          ///< walk of either strain component, >= 0
   double strain_memory_m = 5.0;  ///< way after which the strain returns to none, > 0
