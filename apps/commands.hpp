@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "apps/convert_command.hpp"
 #include "apps/generate_command.hpp"
 #include "apps/program.hpp"
 
@@ -9,6 +10,7 @@ namespace sketchloc {
 
 // One per <name>_command.cpp, in the order of --help.
 
-inline constexpr std::array<AddCommand, 1> kCommands = {add_generate_command};
+inline constexpr auto kCommands =
+    std::to_array<AddCommand>({add_generate_command, add_convert_command});
 
 }  // namespace sketchloc
