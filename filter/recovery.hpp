@@ -11,7 +11,7 @@ struct RecoveryParams {
   double slow_way_m = 30.0;     ///< memory of the long-term evidence, in way driven, > 0
   double fast_way_m = 4.0;      ///< memory of the short-term evidence, > 0
   double evidence_beams = 6.0;  ///< independent beams in a scan, for the ratio of both, > 0
-  double max_share = 5e-4;      ///< most of the particles replaced in one update, in [0, 0.5]
+  double max_share = 2e-4;      ///< most of the particles replaced in one update, in [0, 0.5]
   double base_share = 1e-4;  ///< always replaced: the odds of having been carried away, in [0, 0.5]
   std::size_t candidates = 4000;     ///< poses tried for each injection, >= 1
   double candidate_exponent = 0.15;  ///< tempers the beams that choose among them, in (0, 1]

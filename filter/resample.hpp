@@ -22,12 +22,12 @@ WeightSummary normalise(ParticleSet& particles);
 
 /// Adaptive particle count by Kullback-Leibler distance sampling. [Fox03]
 struct KldParams {
-  double error = 0.02;      ///< bound on the K-L distance, in (0, 1)
+  double error = 0.01;      ///< bound on the K-L distance, in (0, 1)
   double quantile = 2.326;  ///< of the normal distribution, the confidence (0.99), > 0
   double bin_m = 0.5;       ///< side of a bin, in local metres, > 0
   double bin_rad = 0.2618;  ///< width of a heading bin, in (0, pi]
-  std::size_t min_particles = 2000;
-  std::size_t max_particles = 8000;
+  std::size_t min_particles = 4000;
+  std::size_t max_particles = 10000;
 };
 void validate(const KldParams& params);
 

@@ -102,7 +102,7 @@ TEST(KldCount, MatchesTheFormulaWorkedOutByHand) {
 }
 
 TEST(KldCount, StaysWithinItsLimitsAndGrowsWithTheBins) {
-  const KldParams params{.min_particles = 100, .max_particles = 1000};
+  const KldParams params{.error = 0.05, .min_particles = 100, .max_particles = 1000};
   EXPECT_EQ(kld_count(0, params), 100U);
   EXPECT_EQ(kld_count(1, params), 100U);
   EXPECT_EQ(kld_count(1000000, params), 1000U);
