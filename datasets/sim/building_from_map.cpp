@@ -5,9 +5,9 @@
 #include "datasets/sim/building.hpp"
 #include "datasets/sim/detail/plan_builder.hpp"
 #include "datasets/sim/detail/wall_tracing.hpp"
-#include "datasets/sim/raster.hpp"
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
+#include "registration/distance_field.hpp"
 
 namespace sketchloc {
 namespace {
@@ -62,7 +62,7 @@ Grid<std::uint8_t> solid_without_specks(const Grid<std::uint8_t>& occupied, doub
 
 /// The walls as far as they can be seen: occupied cells near free ones.
 Grid<std::uint8_t> wall_band(const Grid<std::uint8_t>& occupied, double depth_cells) {
-  const Grid<float> to_free = clearance(inverted(occupied));
+  const Grid<float> to_free = distance_field_px(inverted(occupied));
   Grid<std::uint8_t> band = occupied;
   for (int row = 0; row < band.height(); ++row) {
     for (int column = 0; column < band.width(); ++column) {
@@ -73,24 +73,15 @@ Grid<std::uint8_t> wall_band(const Grid<std::uint8_t>& occupied, double depth_ce
   return band;
 }
 
-double length(const std::vector<Eigen::Vector2d>& line) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    sum += (line[i] - line[i - 1]).norm();
-  }
-  return sum;
-}
-
 std::vector<Wall> trace_walls(const MetricMap& map, const MapReadingParams& params) {
   const Grid<std::uint8_t> lines =
       detail::thin(wall_band(map.cells, params.solid_depth_m / map.cell_m));
   std::vector<Wall> walls;
-  for (const std::vector<Eigen::Vector2d>& traced : detail::trace_lines(lines)) {
-    if (length(traced) * map.cell_m < params.min_wall_m) {
+  for (const detail::Polyline& traced : detail::trace_lines(lines)) {
+    if (detail::length(traced) * map.cell_m < params.min_wall_m) {
       continue;
     }
-    const std::vector<Eigen::Vector2d> line =
-        detail::simplify(traced, params.tolerance_m / map.cell_m);
+    const detail::Polyline line = detail::simplify(traced, params.tolerance_m / map.cell_m);
     for (std::size_t i = 1; i < line.size(); ++i) {
       walls.push_back({.from_in_world = map.world_from_cells(line[i - 1]),
                        .to_in_world = map.world_from_cells(line[i])});

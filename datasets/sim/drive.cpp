@@ -5,6 +5,7 @@
 #include <numbers>
 #include <optional>
 
+#include "datasets/sim/detail/polyline.hpp"
 #include "datasets/sim/detail/route_planner.hpp"
 #include "motion/angles.hpp"
 #include "motion/validate.hpp"
@@ -12,45 +13,22 @@
 namespace sketchloc {
 namespace {
 
+using detail::Polyline;
 using Points = std::vector<Eigen::Vector2d>;
 
 constexpr double kStep_m = 0.05;         ///< of the driven line
 constexpr double kTurnStep_rad = 0.1;    ///< of a turn on the spot
 constexpr double kTurnOnSpot_rad = 0.6;  ///< a corner sharper than this is turned on the spot
 constexpr double kGoalArea_m = 7.0;
+constexpr double kShortestLeg_m = 1.0;
 constexpr int kFailuresAllowed = 50;
 
 double heading_rad(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
 }
 
-double length_m(const Points& line) {
-  double sum = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    sum += (line[i] - line[i - 1]).norm();
-  }
-  return sum;
-}
-
-/// Points of the same line at equal distances.
-Points resample(const Points& line, double spacing) {
-  Points even{line.front()};
-  double since_last = 0.0;
-  for (std::size_t i = 1; i < line.size(); ++i) {
-    const Eigen::Vector2d direction = line[i] - line[i - 1];
-    const double piece = direction.norm();
-    double reached = spacing - since_last;
-    for (; reached <= piece; reached += spacing) {
-      even.push_back(line[i - 1] + direction * (reached / piece));
-    }
-    since_last = piece - (reached - spacing);
-  }
-  even.push_back(line.back());
-  return even;
-}
-
 /// Pulls every point towards the middle of its neighbours where the robot still fits.
-void smooth(Points& line, const detail::RoutePlanner& planner, int rounds) {
+void smooth(Polyline& line, const detail::RoutePlanner& planner, int rounds) {
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t i = 1; i + 1 < line.size(); ++i) {
       const Eigen::Vector2d candidate = 0.5 * line[i] + 0.25 * (line[i - 1] + line[i + 1]);
@@ -62,9 +40,9 @@ void smooth(Points& line, const detail::RoutePlanner& planner, int rounds) {
 }
 
 /// Moves points sideways by slowly changing amounts: nobody drives the same line twice.
-void wander(Points& line, double sigma_m, const detail::RoutePlanner& planner, Rng& rng) {
+void wander(Polyline& line, double sigma_m, const detail::RoutePlanner& planner, Rng& rng) {
   double offset_m = 0.0;
-  const Points before = line;
+  const Polyline before = line;
   for (std::size_t i = 1; i + 1 < line.size(); ++i) {
     offset_m = 0.9 * offset_m + gaussian(0.44 * sigma_m, rng);  // stationary sigma = sigma_m
     const Eigen::Vector2d along = (before[i + 1] - before[i - 1]).normalized();
@@ -83,7 +61,7 @@ class Driver {
     note();
   }
 
-  void follow(const Points& line) {
+  void follow(const Polyline& line) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
       const std::size_t ahead = std::min(i + 4, line.size() - 1);
       const Eigen::Vector2d direction = line[ahead] - line[i];
@@ -223,15 +201,15 @@ Drive drive_through(const Building& building, const DriveParams& params, Rng& rn
   int failures = 0;
   while (driver.way_m() < params.length_m && failures < kFailuresAllowed) {
     const Eigen::Vector2d goal = goals.next(rng);
-    std::optional<Points> line = planner.route(here, goal);
-    if (!line || length_m(*line) < 1.0) {
+    std::optional<Polyline> line = planner.route(here, goal);
+    if (!line || detail::length(*line) < kShortestLeg_m) {
       ++failures;
       continue;
     }
     smooth(*line, planner, 60);
     wander(*line, params.wander_m, planner, rng);
     smooth(*line, planner, 20);
-    driver.follow(resample(*line, kStep_m));
+    driver.follow(detail::resample(*line, kStep_m));
     here = goal;
   }
   const bool confined = failures >= kFailuresAllowed;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace sketchloc::detail {
 namespace {
@@ -77,18 +78,6 @@ void shift_front(Stroke& stroke, double length_px) {
 }
 
 }  // namespace
-
-Stroke resample(const Stroke& stroke, double spacing) {
-  Stroke even{stroke.front()};
-  for (std::size_t i = 1; i < stroke.size(); ++i) {
-    const Eigen::Vector2d piece = stroke[i] - stroke[i - 1];
-    const int steps = std::max(1, static_cast<int>(std::ceil(piece.norm() / spacing)));
-    for (int step = 1; step <= steps; ++step) {
-      even.push_back(stroke[i - 1] + piece * (static_cast<double>(step) / steps));
-    }
-  }
-  return even;
-}
 
 Stroke drawn_by_hand(const Stroke& stroke_in_sketch, const PenParams& pen, Rng& rng) {
   Stroke stroke = resample(stroke_in_sketch, kPointSpacing_px);

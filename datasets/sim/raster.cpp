@@ -1,8 +1,9 @@
 #include "datasets/sim/raster.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "datasets/sim/detail/polyline.hpp"
 
 namespace sketchloc {
 namespace {
@@ -41,44 +42,6 @@ void paint_where(Grid<std::uint8_t>& cells, const CellBox& box, std::uint8_t val
   }
 }
 
-double squared_distance_to_line(const Eigen::Vector2d& point, const Eigen::Vector2d& from,
-                                const Eigen::Vector2d& to) {
-  const Eigen::Vector2d along = to - from;
-  const double squared_length = along.squaredNorm();
-  const double share =
-      squared_length > 0.0 ? std::clamp((point - from).dot(along) / squared_length, 0.0, 1.0) : 0.0;
-  return (point - from - share * along).squaredNorm();
-}
-
-/// One chamfer pass; `direction` is 1 from the bottom left, -1 from the top right.
-void sweep(Grid<float>& distance, int direction) {
-  struct Neighbour {
-    Cell offset;
-    float length;
-  };
-  constexpr std::array<Neighbour, 8> kBehind = {{{{-1, 0}, 1.0F},
-                                                 {{0, -1}, 1.0F},
-                                                 {{-1, -1}, 1.4F},
-                                                 {{1, -1}, 1.4F},
-                                                 {{-2, -1}, 2.2F},
-                                                 {{-1, -2}, 2.2F},
-                                                 {{1, -2}, 2.2F},
-                                                 {{2, -1}, 2.2F}}};
-  const int cells = distance.width() * distance.height();
-  for (int i = 0; i < cells; ++i) {
-    const int index = direction > 0 ? i : cells - 1 - i;
-    const Cell cell = {index % distance.width(), index / distance.width()};
-    float& here = distance.at(cell);
-    for (const Neighbour& neighbour : kBehind) {
-      const Cell behind = {cell.column + direction * neighbour.offset.column,
-                           cell.row + direction * neighbour.offset.row};
-      if (distance.contains(behind)) {
-        here = std::min(here, distance.at(behind) + neighbour.length);
-      }
-    }
-  }
-}
-
 }  // namespace
 
 void paint_line(Grid<std::uint8_t>& cells, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
@@ -87,7 +50,7 @@ void paint_line(Grid<std::uint8_t>& cells, const Eigen::Vector2d& from, const Ei
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(radius + 1.0);
   paint_where(cells, cells_around(cells, from.cwiseMin(to) - reach, from.cwiseMax(to) + reach),
               value, [&](const Eigen::Vector2d& centre) {
-                return squared_distance_to_line(centre, from, to) <= radius * radius;
+                return detail::distance_to_segment(centre, from, to) <= radius;
               });
   const int steps = 1 + static_cast<int>(2.0 * (to - from).norm());
   for (int step = 0; step <= steps; ++step) {
@@ -126,21 +89,6 @@ void paint_convex(Grid<std::uint8_t>& cells, std::span<const Eigen::Vector2d> co
     }
     return true;
   });
-}
-
-Grid<float> clearance(const Grid<std::uint8_t>& cells) {
-  const auto unreachable = static_cast<float>(2 * (cells.width() + cells.height()) + 1);
-  Grid<float> distance(cells.width(), cells.height(), unreachable);
-  for (int row = 0; row < cells.height(); ++row) {
-    for (int column = 0; column < cells.width(); ++column) {
-      if (cells.at({column, row}) != 0) {
-        distance.at({column, row}) = 0.0F;
-      }
-    }
-  }
-  sweep(distance, 1);
-  sweep(distance, -1);
-  return distance;
 }
 
 }  // namespace sketchloc

@@ -21,8 +21,4 @@ void paint_polyline(Grid<std::uint8_t>& cells, std::span<const Eigen::Vector2d> 
 void paint_convex(Grid<std::uint8_t>& cells, std::span<const Eigen::Vector2d> corners,
                   std::uint8_t value = 1);
 
-/// How far each cell is from the nearest non-zero cell, in cells; within 6 % of the Euclidean
-/// distance (chamfer 5-7-11). Without any such cell: a distance larger than the grid.
-Grid<float> clearance(const Grid<std::uint8_t>& cells);
-
 }  // namespace sketchloc

@@ -6,7 +6,7 @@
 #include <limits>
 #include <queue>
 
-#include "datasets/sim/raster.hpp"
+#include "registration/distance_field.hpp"
 
 namespace sketchloc::detail {
 namespace {
@@ -28,24 +28,24 @@ struct Candidate {
 RoutePlanner::RoutePlanner(const MetricMap& map, double robot_radius_m)
     : cell_m_(kPlanningCell_m),
       robot_radius_m_(robot_radius_m),
-      origin_in_world_(map.origin_in_world) {
-  const Grid<float> fine = sketchloc::clearance(map.cells);
-  const double ratio = cell_m_ / map.cell_m;
+      map_cell_m_(map.cell_m),
+      origin_in_world_(map.origin_in_world),
+      distance_cells_(distance_field_px(map.cells)) {
+  const double ratio = cell_m_ / map_cell_m_;
   clearance_m_ = Grid<float>(std::max(1, static_cast<int>(map.cells.width() / ratio)),
                              std::max(1, static_cast<int>(map.cells.height() / ratio)));
   for (int row = 0; row < clearance_m_.height(); ++row) {
     for (int column = 0; column < clearance_m_.width(); ++column) {
-      const Cell nearest = cell_at(ratio * centre_of({column, row}));
-      clearance_m_.at({column, row}) =
-          fine.contains(nearest) ? fine.at(nearest) * static_cast<float>(map.cell_m) : 0.0F;
+      const Eigen::Vector2d centre = origin_in_world_ + cell_m_ * centre_of({column, row});
+      clearance_m_.at({column, row}) = static_cast<float>(clearance_m(centre));
     }
   }
   reachable_ = largest_free_space();
 }
 
 double RoutePlanner::clearance_m(const Eigen::Vector2d& point_in_world) const {
-  const Eigen::Vector2d point = (point_in_world - origin_in_world_) / cell_m_;
-  return static_cast<double>(sample(clearance_m_, point).value_or(0.0F));
+  const Eigen::Vector2d point = (point_in_world - origin_in_world_) / map_cell_m_;
+  return map_cell_m_ * static_cast<double>(sample(distance_cells_, point).value_or(0.0F));
 }
 
 bool RoutePlanner::fits(const Eigen::Vector2d& point_in_world) const {
@@ -119,8 +119,8 @@ std::vector<Eigen::Vector2d> RoutePlanner::standing_places(const PlaneBox& box_i
   return places;
 }
 
-std::optional<std::vector<Eigen::Vector2d>> RoutePlanner::route(
-    const Eigen::Vector2d& start_in_world, const Eigen::Vector2d& goal_in_world) const {
+std::optional<Polyline> RoutePlanner::route(const Eigen::Vector2d& start_in_world,
+                                            const Eigen::Vector2d& goal_in_world) const {
   const Cell start = cell_at((start_in_world - origin_in_world_) / cell_m_);
   const Cell goal = cell_at((goal_in_world - origin_in_world_) / cell_m_);
   if (!fits(start) || !fits(goal)) {
@@ -130,7 +130,7 @@ std::optional<std::vector<Eigen::Vector2d>> RoutePlanner::route(
   if (!onward) {
     return std::nullopt;
   }
-  std::vector<Eigen::Vector2d> points{start_in_world};
+  Polyline points{start_in_world};
   for (Cell cell = start; !(cell == goal);) {
     cell = onward->at(cell);
     points.push_back(origin_in_world_ + cell_m_ * centre_of(cell));

@@ -1,14 +1,10 @@
 #include "datasets/sim/detail/wall_tracing.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace sketchloc::detail {
 namespace {
-
-using Line = std::vector<Eigen::Vector2d>;
 
 /// Clockwise from the top, as in [ZhangSuen84].
 constexpr std::array<Cell, 8> kRing = {
@@ -58,9 +54,9 @@ std::vector<Cell> set_neighbours(const Grid<std::uint8_t>& lines, const Cell& ce
 }
 
 /// Follows one line from a node over free cells until the next node or its own end.
-Line follow(const Grid<std::uint8_t>& lines, const Cell& node, Cell here,
-            Grid<std::uint8_t>& visited) {
-  Line line{centre_of(node)};
+Polyline follow(const Grid<std::uint8_t>& lines, const Cell& node, Cell here,
+                Grid<std::uint8_t>& visited) {
+  Polyline line{centre_of(node)};
   Cell previous = node;
   while (true) {
     line.push_back(centre_of(here));
@@ -88,15 +84,6 @@ void for_each_cell(const Grid<std::uint8_t>& lines, const Visit& visit) {
   }
 }
 
-double distance_to_line(const Eigen::Vector2d& point, const Eigen::Vector2d& from,
-                        const Eigen::Vector2d& to) {
-  const Eigen::Vector2d along = to - from;
-  const double squared_length = along.squaredNorm();
-  const double share =
-      squared_length > 0.0 ? std::clamp((point - from).dot(along) / squared_length, 0.0, 1.0) : 0.0;
-  return (point - from - share * along).norm();
-}
-
 }  // namespace
 
 Grid<std::uint8_t> thin(Grid<std::uint8_t> mask) {
@@ -119,8 +106,8 @@ Grid<std::uint8_t> thin(Grid<std::uint8_t> mask) {
   return mask;
 }
 
-std::vector<Line> trace_lines(const Grid<std::uint8_t>& lines) {
-  std::vector<Line> traced;
+std::vector<Polyline> trace_lines(const Grid<std::uint8_t>& lines) {
+  std::vector<Polyline> traced;
   Grid<std::uint8_t> visited(lines.width(), lines.height());
   for_each_cell(lines, [&](const Cell& node) {
     const std::vector<Cell> neighbours = set_neighbours(lines, node);
@@ -145,29 +132,6 @@ std::vector<Line> trace_lines(const Grid<std::uint8_t>& lines) {
     }
   });
   return traced;
-}
-
-Line simplify(std::span<const Eigen::Vector2d> line, double tolerance) {
-  if (line.size() < 3) {
-    return {line.begin(), line.end()};
-  }
-  const bool loop = (line.front() - line.back()).norm() < 1e-9;
-  std::size_t farthest = 0;
-  double largest = -1.0;
-  for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-    const double distance = distance_to_line(line[i], line.front(), line.back());
-    if (distance > largest) {
-      largest = distance;
-      farthest = i;
-    }
-  }
-  if (largest <= tolerance && !loop) {
-    return {line.front(), line.back()};
-  }
-  Line first = simplify(line.first(farthest + 1), tolerance);
-  const Line second = simplify(line.subspan(farthest), tolerance);
-  first.insert(first.end(), second.begin() + 1, second.end());
-  return first;
 }
 
 }  // namespace sketchloc::detail

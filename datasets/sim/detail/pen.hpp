@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <span>
 #include <vector>
 
+#include "datasets/sim/detail/polyline.hpp"
 #include "datasets/sim/floor_plan.hpp"
 #include "datasets/sim/person.hpp"
 #include "motion/random.hpp"
@@ -11,7 +11,7 @@
 namespace sketchloc::detail {
 
 /// Points that the pen visits without being lifted.
-using Stroke = std::vector<Eigen::Vector2d>;
+using Stroke = Polyline;
 
 /// Joins walls that meet: always where they go straight on, round a corner with a given chance.
 std::vector<Stroke> chain_walls(std::span<const Wall> walls, double one_go_share, Rng& rng);
@@ -22,8 +22,5 @@ std::vector<Stroke> choose_strokes(const FloorPlan& plan, const PenParams& pen, 
 
 /// The same stroke as a hand draws it, in px: rounded, wobbling, ending early or late.
 Stroke drawn_by_hand(const Stroke& stroke_in_sketch, const PenParams& pen, Rng& rng);
-
-/// Points of the same line at nearly equal distances, at most `spacing`.
-Stroke resample(const Stroke& stroke, double spacing);
 
 }  // namespace sketchloc::detail

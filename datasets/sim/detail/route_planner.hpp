@@ -2,11 +2,10 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "datasets/sim/building.hpp"
-#include "motion/random.hpp"
+#include "datasets/sim/detail/polyline.hpp"
 
 namespace sketchloc::detail {
 
@@ -15,7 +14,7 @@ class RoutePlanner {
  public:
   RoutePlanner(const MetricMap& map, double robot_radius_m);
 
-  /// Distance to the nearest wall or furniture at a point; 0 outside the map.
+  /// Distance to the middle of the nearest cell of a wall or thing; 0 outside the map.
   double clearance_m(const Eigen::Vector2d& point_in_world) const;
   bool fits(const Eigen::Vector2d& point_in_world) const;
 
@@ -23,8 +22,8 @@ class RoutePlanner {
   std::vector<Eigen::Vector2d> standing_places(const PlaneBox& box_in_world) const;
 
   /// Points about one cell apart, from start to goal; none where there is no way.
-  std::optional<std::vector<Eigen::Vector2d>> route(const Eigen::Vector2d& start_in_world,
-                                                    const Eigen::Vector2d& goal_in_world) const;
+  std::optional<Polyline> route(const Eigen::Vector2d& start_in_world,
+                                const Eigen::Vector2d& goal_in_world) const;
 
  private:
   bool fits(const Cell& cell) const;
@@ -34,9 +33,11 @@ class RoutePlanner {
   std::optional<Grid<Cell>> ways_to(const Cell& goal, const Cell& start) const;
   float step_cost(const Cell& to, const Cell& offset) const;
 
-  double cell_m_;
+  double cell_m_;  ///< of the planning grid
   double robot_radius_m_;
+  double map_cell_m_;
   Eigen::Vector2d origin_in_world_;
+  Grid<float> distance_cells_;    ///< per cell of the map
   Grid<float> clearance_m_;       ///< per planning cell
   Grid<std::uint8_t> reachable_;  ///< 1 in the largest connected free space
 };

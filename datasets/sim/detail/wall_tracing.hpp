@@ -1,11 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "datasets/grid.hpp"
+#include "datasets/sim/detail/polyline.hpp"
 
 namespace sketchloc::detail {
 
@@ -14,9 +13,6 @@ Grid<std::uint8_t> thin(Grid<std::uint8_t> mask);
 
 /// Lines one cell wide as polylines through cell centres, cut where lines meet; loops come back to
 /// their first point.
-std::vector<std::vector<Eigen::Vector2d>> trace_lines(const Grid<std::uint8_t>& lines);
-
-/// The fewest points of a polyline that stay within a tolerance of it. [DouglasPeucker73]
-std::vector<Eigen::Vector2d> simplify(std::span<const Eigen::Vector2d> line, double tolerance);
+std::vector<Polyline> trace_lines(const Grid<std::uint8_t>& lines);
 
 }  // namespace sketchloc::detail
