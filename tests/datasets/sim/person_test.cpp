@@ -24,7 +24,7 @@ Drawing drawn(const FloorPlan& floor_plan, const PersonParams& person, std::uint
   return draw(floor_plan, person, rng);
 }
 
-TEST(HumanPerson, NeverFoldsTheBuilding) {
+TEST(HumanPersonStatistical, NeverFoldsTheBuilding) {
   for (const BuildingKind kind :
        {BuildingKind::Home, BuildingKind::Office, BuildingKind::Warehouse}) {
     for (std::uint64_t seed = 0; seed < 8; ++seed) {

@@ -9,7 +9,7 @@
 namespace sketchloc {
 namespace {
 
-constexpr std::uint64_t kSeeds = 12;
+constexpr std::uint64_t kSeeds = 6;
 
 class Plans : public ::testing::TestWithParam<BuildingKind> {
  protected:
