@@ -32,6 +32,15 @@ struct BeamKernelParams {
   /// such a beam has its K at the farthest range of the table, mostly the log of `floor`.
   std::optional<double> nothing_drawn = {};
 };
+
+template <typename Visitor>
+void visit_fields(BeamKernelParams& params, Visitor&& visit) {
+  visit("sigma", params.sigma);
+  visit("floor", params.floor);
+  visit("no_return_floor", params.no_return_floor);
+  visit("nothing_drawn", params.nothing_drawn);
+}
+
 void validate(const BeamKernelParams& params);
 
 /// The beams of a scan in the integers of the kernel. Keeps its memory when it is filled again.

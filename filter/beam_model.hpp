@@ -18,6 +18,14 @@ struct BeamModelParams {
   BeamKernelParams kernel;
   double exponent = 0.05;  ///< tempers the beams of one scan, which are correlated, in (0, 1]
 };
+
+template <typename Visitor>
+void visit_fields(BeamModelParams& params, Visitor&& visit) {
+  visit("selection", params.selection);
+  visit("kernel", params.kernel);
+  visit("exponent", params.exponent);
+}
+
 void validate(const BeamModelParams& params);
 
 /// One scan at a time against many particles.

@@ -14,6 +14,13 @@ struct BeamSelection {
   int beams = 60;             ///< spread evenly over the field of view, in [1, 4096]
   double max_range_m = 20.0;  ///< farther returns are left out, > 0
 };
+
+template <typename Visitor>
+void visit_fields(BeamSelection& selection, Visitor&& visit) {
+  visit("beams", selection.beams);
+  visit("max_range_m", selection.max_range_m);
+}
+
 void validate(const BeamSelection& selection);
 
 /// Refills `ends_in_robot` with the ends of the selected beams; keeps its memory. Each stands for

@@ -20,6 +20,15 @@ struct EndPointModelParams {
   double floor = 0.1;     ///< share of beams that say nothing, in (0, 1]
   double exponent = 0.2;  ///< tempers the beams of one scan, which are correlated, in (0, 1]
 };
+
+template <typename Visitor>
+void visit_fields(EndPointModelParams& params, Visitor&& visit) {
+  visit("selection", params.selection);
+  visit("sigma_m", params.sigma_m);
+  visit("floor", params.floor);
+  visit("exponent", params.exponent);
+}
+
 void validate(const EndPointModelParams& params);
 
 /// One scan at a time against many particles.

@@ -73,6 +73,12 @@ void validate(const LocalizerParams& params) {
   require_in_range("jobs", params.jobs, 1, 1024);
 }
 
+std::span<const std::pair<std::string_view, Measurement>> names_of(Measurement) {
+  static constexpr std::pair<std::string_view, Measurement> kNames[] = {
+      {"beams", Measurement::Beams}, {"end_points", Measurement::EndPoints}};
+  return kNames;
+}
+
 LocalizerParams metric_localizer_params() {
   LocalizerParams params;
   params.predict = metric_motion();

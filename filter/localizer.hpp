@@ -27,6 +27,13 @@ struct MotionGate {
   double way_m = 0.1;      ///< since the last update, >= 0
   double turn_rad = 0.35;  ///< or turned by this much, >= 0
 };
+
+template <typename Visitor>
+void visit_fields(MotionGate& gate, Visitor&& visit) {
+  visit("way_m", gate.way_m);
+  visit("turn_rad", gate.turn_rad);
+}
+
 void validate(const MotionGate& gate);
 
 /// Spread of the particles around a given start, 1-sigma.
@@ -37,6 +44,16 @@ struct StartSpread {
   double log_mean_scale = 0.3;  ///< of the drawing's mean scale against the local one
   double strain = 0.2;
 };
+
+template <typename Visitor>
+void visit_fields(StartSpread& spread, Visitor&& visit) {
+  visit("position_m", spread.position_m);
+  visit("heading_rad", spread.heading_rad);
+  visit("log_scale", spread.log_scale);
+  visit("log_mean_scale", spread.log_mean_scale);
+  visit("strain", spread.strain);
+}
+
 void validate(const StartSpread& spread);
 
 /// What weighs the particles.
@@ -44,6 +61,7 @@ enum class Measurement {
   Beams,     ///< range-ratio beams: for drawings
   EndPoints  ///< end-point likelihood field: for maps in true proportions
 };
+std::span<const std::pair<std::string_view, Measurement>> names_of(Measurement);
 
 struct LocalizerParams {
   PredictParams predict;
@@ -60,6 +78,22 @@ struct LocalizerParams {
   std::uint64_t seed = 1;
   int jobs = 1;  ///< threads; the result does not depend on it, >= 1
 };
+
+/// All but seed and jobs, which do not tune.
+template <typename Visitor>
+void visit_fields(LocalizerParams& params, Visitor&& visit) {
+  visit("predict", params.predict);
+  visit("measurement", params.measurement);
+  visit("beams", params.beams);
+  visit("end_points", params.end_points);
+  visit("particles", params.particles);
+  visit("modes", params.modes);
+  visit("gate", params.gate);
+  visit("start", params.start);
+  visit("recovery", params.recovery);
+  visit("table", params.table);
+  visit("resample_below", params.resample_below);
+}
 
 /// The parameters for a map in true proportions: nothing deforms, end points are scored.
 LocalizerParams metric_localizer_params();

@@ -15,6 +15,15 @@ struct ModeParams {
   int max_modes = 4;         ///< in [1, 16]
   double min_weight = 0.05;  ///< lighter modes are not reported, in [0, 1]
 };
+
+template <typename Visitor>
+void visit_fields(ModeParams& params, Visitor&& visit) {
+  visit("radius_m", params.radius_m);
+  visit("radius_rad", params.radius_rad);
+  visit("max_modes", params.max_modes);
+  visit("min_weight", params.min_weight);
+}
+
 void validate(const ModeParams& params);
 
 /// Finds the clusters of a particle set: the heaviest cell of a pose grid, moved to the mean of its

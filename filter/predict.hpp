@@ -22,6 +22,18 @@ struct DeformationWalk {
   double strain_memory_m = 8.0;  ///< way after which the strain returns to none, > 0
 };
 
+template <typename Visitor>
+void visit_fields(DeformationWalk& walk, Visitor&& visit) {
+  visit("length_per_m", walk.length_per_m);
+  visit("shear_per_m", walk.shear_per_m);
+  visit("heading_rad", walk.heading_rad);
+  visit("log_scale", walk.log_scale);
+  visit("scale_memory_m", walk.scale_memory_m);
+  visit("log_mean_scale", walk.log_mean_scale);
+  visit("strain", walk.strain);
+  visit("strain_memory_m", walk.strain_memory_m);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const DeformationWalk& walk);
 
@@ -32,6 +44,12 @@ struct PredictParams {
                          .turn_rad_per_rad = 0.03};  ///< of the odometry as refined by matching
   DeformationWalk deformation;
 };
+
+template <typename Visitor>
+void visit_fields(PredictParams& params, Visitor&& visit) {
+  visit("odometry", params.odometry);
+  visit("deformation", params.deformation);
+}
 
 void validate(const PredictParams& params);
 

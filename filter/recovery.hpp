@@ -16,6 +16,18 @@ struct RecoveryParams {
   std::size_t candidates = 4000;     ///< poses tried for each injection, >= 1
   double candidate_exponent = 0.15;  ///< tempers the beams that choose among them, in (0, 1]
 };
+
+template <typename Visitor>
+void visit_fields(RecoveryParams& params, Visitor&& visit) {
+  visit("slow_way_m", params.slow_way_m);
+  visit("fast_way_m", params.fast_way_m);
+  visit("evidence_beams", params.evidence_beams);
+  visit("max_share", params.max_share);
+  visit("base_share", params.base_share);
+  visit("candidates", params.candidates);
+  visit("candidate_exponent", params.candidate_exponent);
+}
+
 void validate(const RecoveryParams& params);
 
 /// Long- and short-term averages of the evidence per beam.

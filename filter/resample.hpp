@@ -29,6 +29,17 @@ struct KldParams {
   std::size_t min_particles = 4000;
   std::size_t max_particles = 10000;
 };
+
+template <typename Visitor>
+void visit_fields(KldParams& params, Visitor&& visit) {
+  visit("error", params.error);
+  visit("quantile", params.quantile);
+  visit("bin_m", params.bin_m);
+  visit("bin_rad", params.bin_rad);
+  visit("min_particles", params.min_particles);
+  visit("max_particles", params.max_particles);
+}
+
 void validate(const KldParams& params);
 
 /// The least count for which the K-L distance stays below the bound with that confidence when

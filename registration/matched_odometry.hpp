@@ -24,6 +24,13 @@ struct WheelPrior {
   double floor_rad = 0.015;  ///< the same for the heading, > 0
 };
 
+template <typename Visitor>
+void visit_fields(WheelPrior& wheels, Visitor&& visit) {
+  visit("noise", wheels.noise);
+  visit("floor_m", wheels.floor_m);
+  visit("floor_rad", wheels.floor_rad);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const WheelPrior& wheels);
 
@@ -39,6 +46,20 @@ struct MatchedOdometryParams {
   int max_keyframes = 80;          ///< kept in the submap, >= 1
   double submap_radius_m = 15.0;   ///< keyframes farther from the robot are dropped, > 0
 };
+
+template <typename Visitor>
+void visit_fields(MatchedOdometryParams& params, Visitor&& visit) {
+  visit("surface", params.surface);
+  visit("search", params.search);
+  visit("match", params.match);
+  visit("wheels", params.wheels);
+  visit("merge_cell_m", params.merge_cell_m);
+  visit("search_radius_m", params.search_radius_m);
+  visit("keyframe_way_m", params.keyframe_way_m);
+  visit("keyframe_turn_rad", params.keyframe_turn_rad);
+  visit("max_keyframes", params.max_keyframes);
+  visit("submap_radius_m", params.submap_radius_m);
+}
 
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const MatchedOdometryParams& params);

@@ -29,6 +29,20 @@ struct PoseSearchParams {
   int max_candidates = 8;          ///< >= 1
 };
 
+template <typename Visitor>
+void visit_fields(PoseSearchParams& params, Visitor&& visit) {
+  visit("cell_m", params.cell_m);
+  visit("heading_step_rad", params.heading_step_rad);
+  visit("min_shift_m", params.min_shift_m);
+  visit("max_shift_m", params.max_shift_m);
+  visit("min_turn_rad", params.min_turn_rad);
+  visit("max_turn_rad", params.max_turn_rad);
+  visit("sigmas", params.sigmas);
+  visit("blur_m", params.blur_m);
+  visit("point_weight", params.point_weight);
+  visit("max_candidates", params.max_candidates);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const PoseSearchParams& params);
 

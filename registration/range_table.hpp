@@ -16,6 +16,14 @@ struct RangeTableParams {
   double log_step = 0.03;     ///< of log(range) between two codes, in [0.005, 0.1]
   double memory_mb = 160.0;   ///< budget; a larger drawing gets coarser cells, > 0
 };
+
+template <typename Visitor>
+void visit_fields(RangeTableParams& params, Visitor&& visit) {
+  visit("min_range_px", params.min_range_px);
+  visit("log_step", params.log_step);
+  visit("memory_mb", params.memory_mb);
+}
+
 void validate(const RangeTableParams& params);
 
 /// The range to the first stroke from everywhere in a drawing in 128 directions, one byte each.

@@ -20,6 +20,17 @@ struct ScanMatchParams {
   double stop_m = 1e-4;            ///< a step below this (m and rad) ends the iteration, > 0
 };
 
+template <typename Visitor>
+void visit_fields(ScanMatchParams& params, Visitor&& visit) {
+  visit("point_sigma_m", params.point_sigma_m);
+  visit("independent_share", params.independent_share);
+  visit("kernel_m", params.kernel_m);
+  visit("min_points", params.min_points);
+  visit("min_matched_share", params.min_matched_share);
+  visit("max_iterations", params.max_iterations);
+  visit("stop_m", params.stop_m);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const ScanMatchParams& params);
 

@@ -23,6 +23,15 @@ struct SurfaceParams {
   double max_roughness = 0.6;  ///< thickness by length of the support of a surface, in (0, 1]
 };
 
+template <typename Visitor>
+void visit_fields(SurfaceParams& params, Visitor&& visit) {
+  visit("max_range_m", params.max_range_m);
+  visit("spacing_m", params.spacing_m);
+  visit("support_m", params.support_m);
+  visit("max_gap_beams", params.max_gap_beams);
+  visit("max_roughness", params.max_roughness);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const SurfaceParams& params);
 
