@@ -92,8 +92,8 @@ std::string to_json(const RunMetrics& metrics) {
   } else {
     add_missing_errors(json);
   }
-  json["seconds"] = metrics.cost.seconds;
-  json["peak_memory_mb"] = metrics.cost.peak_memory_mb;
+  json["seconds"] = metrics.cost ? Json(metrics.cost->seconds) : Json(nullptr);
+  json["peak_memory_mb"] = metrics.cost ? Json(metrics.cost->peak_memory_mb) : Json(nullptr);
   return json.dump(kIndent) + "\n";
 }
 

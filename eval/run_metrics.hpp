@@ -20,7 +20,7 @@ struct RunCost {
 struct RunMetrics {
   std::size_t poses = 0;               ///< of the estimated trajectory
   std::optional<SketchErrors> errors;  ///< none without a reference
-  RunCost cost;
+  std::optional<RunCost> cost;         ///< none where it was not measured
 };
 
 /// The text of `metrics.json`, see docs/metrics.md; null where nothing could be measured.

@@ -16,7 +16,7 @@
 namespace sketchloc {
 
 /// A particle as pictures need it, in the sketch frame.
-struct ParticleView {
+struct SnapshotParticle {
   float x_px = 0.0F;
   float y_px = 0.0F;
   float yaw_rad = 0.0F;
@@ -26,7 +26,7 @@ struct ParticleView {
 /// Particles (or a fair sample of them) after one step.
 struct ParticleSnapshot {
   std::size_t step = 0;  ///< index of the scan in the run
-  std::vector<ParticleView> particles;
+  std::vector<SnapshotParticle> particles;
 };
 
 /// One input of a run as the report names it, e.g. {"drawing", "kitchen.png"}.
@@ -51,7 +51,7 @@ struct RunRecord {
   std::optional<Reference> reference;
   std::vector<Reference> alternatives;  ///< other readings of the drawing, accepted too
   LossDefinition loss;
-  RunCost cost;
+  std::optional<RunCost> cost;
 };
 
 /// The errors of the run; empty without a reference.

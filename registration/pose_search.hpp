@@ -40,6 +40,8 @@ void visit_fields(PoseSearchParams& params, Visitor&& visit) {
   visit("sigmas", params.sigmas);
   visit("blur_m", params.blur_m);
   visit("point_weight", params.point_weight);
+  visit("candidate_gap_m", params.candidate_gap_m);
+  visit("candidate_gap_rad", params.candidate_gap_rad);
   visit("max_candidates", params.max_candidates);
 }
 

@@ -54,7 +54,7 @@ std::vector<Moment> notable_moments(const RunRecord& record, std::span<const Ste
     return moments;
   }
   if (const std::optional<StepError> loss = first_loss(errors, record.loss)) {
-    add(index_of(record, loss->step), "lost from here on");
+    add(index_of(record, loss->step), "first lost");
   }
   const auto worst = std::ranges::max_element(errors, {}, &StepError::translation_m);
   add(index_of(record, worst->step), "largest error");

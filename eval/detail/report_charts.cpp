@@ -183,6 +183,11 @@ Chart particle_chart(const ReportModel& model) {
   return chart;
 }
 
+bool any_particles(const RunRecord& record) {
+  return std::ranges::any_of(record.steps,
+                             [](const StepReport& report) { return report.particles > 0; });
+}
+
 bool any_injected(const RunRecord& record) {
   return std::ranges::any_of(record.steps,
                              [](const StepReport& report) { return report.injected_share > 0.0; });
@@ -211,8 +216,10 @@ std::string charts_html(const ReportModel& model) {
   if (model.has_reference()) {
     charts += chart_html(heading_chart(model));
   }
-  charts += chart_html(scale_chart(model)) + chart_html(likelihood_chart(model)) +
-            chart_html(particle_chart(model));
+  charts += chart_html(scale_chart(model));
+  if (any_particles(model.record)) {
+    charts += chart_html(likelihood_chart(model)) + chart_html(particle_chart(model));
+  }
   if (any_injected(model.record)) {
     charts += chart_html(recovery_chart(model));
   }

@@ -155,7 +155,7 @@ View view_of_cloud(const ParticleSnapshot& snapshot, const Sim2& estimate,
   View view = square_around(estimate, reference);
   std::vector<double> x;
   std::vector<double> y;
-  for (const ParticleView& particle : snapshot.particles) {
+  for (const SnapshotParticle& particle : snapshot.particles) {
     x.push_back(particle.x_px);
     y.push_back(particle.y_px);
   }
@@ -176,7 +176,7 @@ std::string particle_panel(const ReportModel& model, const Moment& moment,
                            const ParticleSnapshot& snapshot) {
   constexpr double kDot = 2.5;
   std::vector<Eigen::Vector2d> points;
-  for (const ParticleView& particle : snapshot.particles) {
+  for (const SnapshotParticle& particle : snapshot.particles) {
     points.emplace_back(particle.x_px, particle.y_px);
   }
   const Sim2& estimate = estimated(model.record, moment);

@@ -131,11 +131,9 @@ std::string run_rows(const RunRecord& record) {
   }
   html += row("poses", fixed(static_cast<double>(record.steps.size()), 0)) +
           row("seed", std::to_string(record.seed)) + row("commit", escaped(record.commit));
-  if (record.cost.seconds > 0.0) {
-    html += row("computing time", duration(record.cost.seconds));
-  }
-  if (record.cost.peak_memory_mb > 0.0) {
-    html += row("peak memory", fixed(record.cost.peak_memory_mb, 0) + "&#160;MB");
+  if (record.cost) {
+    html += row("computing time", duration(record.cost->seconds)) +
+            row("peak memory", fixed(record.cost->peak_memory_mb, 0) + "&#160;MB");
   }
   return html;
 }

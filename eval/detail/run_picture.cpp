@@ -69,7 +69,7 @@ std::vector<PathLayer> time_legend() {
 /// The estimated path cut where its class changes or where it jumps; jumps in a layer of theirs.
 std::vector<PathLayer> estimate_layers(const RunRecord& record, std::vector<PathLayer> layers,
                                        std::span<const std::size_t> classes) {
-  PathLayer jumps{.name = "jump of the estimate", .colour = kGrey, .width = 1.0, .dashed = true};
+  PathLayer jumps{.name = "jump of the estimate", .colour = kGrey, .width = 0.8, .dashed = true};
   std::size_t open_class = layers.size();  // whose last line goes on; layers.size(): none
   for (std::size_t i = 1; i < record.steps.size(); ++i) {
     const Sim2& from = record.steps[i - 1].estimate.sketch_from_robot;
@@ -167,7 +167,7 @@ std::vector<PathLayer> path_layers(const RunRecord& record, std::span<const Step
 
 Grid<std::uint8_t> paper(const Sketch& sketch) {
   constexpr std::uint8_t kPaper = 255;
-  constexpr std::uint8_t kInk = 125;
+  constexpr std::uint8_t kInk = 150;
   constexpr std::uint8_t kOutside = 205;
   const std::uint8_t occupied = sketch.kind == Sketch::Kind::Strokes ? kInk : kOutside;
   Grid<std::uint8_t> grey(sketch.width_px(), sketch.height_px(), kPaper);

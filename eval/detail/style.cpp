@@ -27,6 +27,9 @@ table{border-collapse:collapse;font-size:.92rem;margin:.4rem 0;font-variant-nume
 th,td{padding:.3rem .7rem .3rem 0;border-bottom:1px solid var(--line);text-align:right}
 th[scope=row]{text-align:left;font-weight:normal;color:var(--soft)}
 .facts td{text-align:left;overflow-wrap:anywhere}.scroll{overflow-x:auto}
+.results td,.results th{vertical-align:top;white-space:nowrap}
+.results td:nth-child(-n+2),.results th:nth-child(-n+2){text-align:left}
+.results .interval{width:7rem;margin:.15rem 0 0 auto}
 pre{overflow-x:auto;font-size:.8rem;line-height:1.35}summary{cursor:pointer;padding:.4rem 0}
 )css";
 

@@ -32,7 +32,7 @@ TEST(Moments, ShowTheLargestErrorAndTheLossInOrderOfTime) {
   ASSERT_NE(worst, nullptr);
   EXPECT_EQ(worst->error->translation_m,
             std::ranges::max(errors, {}, &StepError::translation_m).translation_m);
-  const Moment* loss = with_reason(moments, "lost from here on");
+  const Moment* loss = with_reason(moments, "first lost");
   ASSERT_NE(loss, nullptr);
   EXPECT_EQ(record.steps[loss->index].step, first_loss(errors)->step);
 }

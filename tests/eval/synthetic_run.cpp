@@ -176,7 +176,7 @@ RunRecord make_synthetic_run(Outcome outcome) {
   record.parameters = "filter:\n  particles: 2000  # & more\n  sigma: <0.3>\n";
   record.sketch = make_sketch();
   record.reference = Reference();
-  record.cost = {.seconds = 12.3, .peak_memory_mb = 86.0};
+  record.cost = RunCost{.seconds = 12.3, .peak_memory_mb = 86.0};
   const std::vector<Sim2> poses = robot_poses();
   for (std::size_t step = 0; step < poses.size(); ++step) {
     add_step(record, step, poses.size(), poses[step], outcome);

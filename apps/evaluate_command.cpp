@@ -1,0 +1,212 @@
+#include "apps/evaluate_command.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "apps/config.hpp"
+#include "apps/output_folder.hpp"
+#include "apps/program.hpp"
+#include "apps/result_files.hpp"
+#include "datasets/io/atomic_file.hpp"
+#include "datasets/io/sketch_io.hpp"
+#include "datasets/io/trajectory_io.hpp"
+#include "eval/run_metrics.hpp"
+#include "eval/step_table.hpp"
+#include "motion/angles.hpp"
+
+namespace sketchloc {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct EvaluateOptions {
+  fs::path trajectory;
+  fs::path run;
+  fs::path map;
+  fs::path reference;
+  std::vector<fs::path> alternatives;
+  double max_gap_s = 0.01;
+  std::vector<double> deltas_m = {1.0, 5.0, 10.0};
+  std::vector<std::size_t> deltas_frames = {1};
+  LossDefinition loss;
+  bool json = false;
+  fs::path out;
+  bool force = false;
+};
+
+/// What an evaluation found, for people and for scripts.
+struct Evaluation {
+  std::string table;
+  std::string json;
+};
+
+std::string summary_row(const std::string& name, const std::optional<ErrorSummary>& summary) {
+  if (!summary) {
+    return fmt::format("{:<22}{:>10}\n", name, "-");
+  }
+  return fmt::format("{:<22}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}{:>10.3f}\n", name, summary->mean,
+                     summary->median, summary->rmse, summary->p90, summary->max);
+}
+
+std::string rows(const std::string& name, const PoseErrors& errors) {
+  const std::optional<ErrorSummary> rotation_deg =
+      errors.rotation_rad ? std::optional(scaled(*errors.rotation_rad, deg_from_rad(1.0)))
+                          : std::nullopt;
+  return summary_row(name + ", m", errors.translation_m) +
+         summary_row(name + ", deg", rotation_deg);
+}
+
+std::string heading_row() {
+  return fmt::format("{:<22}{:>10}{:>10}{:>10}{:>10}{:>10}\n", "", "mean", "median", "rmse", "p90",
+                     "max");
+}
+
+std::string relative_name(const RelativeErrorParams& params) {
+  if (const auto* by_frames = std::get_if<FrameDelta>(&params.delta)) {
+    return fmt::format("RPE over {} frames", by_frames->frames);
+  }
+  return fmt::format("RPE over {:g} m", std::get<PathDelta>(params.delta).path_m);
+}
+
+std::vector<RelativeErrorParams> relative_params(const EvaluateOptions& options) {
+  std::vector<RelativeErrorParams> params;
+  for (const std::size_t frames : options.deltas_frames) {
+    params.push_back({.delta = FrameDelta{frames}});
+  }
+  for (const double path_m : options.deltas_m) {
+    params.push_back({.delta = PathDelta{.path_m = path_m}});
+  }
+  return params;
+}
+
+Evaluation evaluate_trajectory(const EvaluateOptions& options) {
+  const TrajectoryMetrics metrics =
+      measure_trajectory(read_tum(options.reference), read_tum(options.trajectory),
+                         options.max_gap_s, relative_params(options));
+  if (metrics.matched == 0) {
+    throw std::runtime_error(
+        fmt::format("{}: no pose within {} s of one in {}; check that both have the same clock, or "
+                    "give a larger --max-gap",
+                    options.trajectory.string(), options.max_gap_s, options.reference.string()));
+  }
+  std::string table =
+      fmt::format("{} of {} poses have a reference\n", metrics.matched, metrics.poses) +
+      heading_row() + rows("ATE unaligned", metrics.unaligned) +
+      rows("ATE first pose", metrics.first_pose) + rows("ATE SE(2)", metrics.se2) +
+      rows("ATE Sim(2)", metrics.sim2);
+  for (const RelativeErrors& relative : metrics.relative) {
+    table += rows(relative_name(relative.params), relative.errors);
+  }
+  return {.table = table, .json = to_json(metrics)};
+}
+
+Evaluation evaluate_run(const EvaluateOptions& options) {
+  const int height_px = read_any_drawing(options.map).height_px();
+  RunRecord record;
+  record.steps = read_step_table(options.run / "trajectory.csv");
+  record.reference = read_reference(options.reference, height_px);
+  record.loss = options.loss;
+  for (const fs::path& csv : options.alternatives) {
+    record.alternatives.push_back(
+        as_reference(read_alternative(csv, height_px), *record.reference));
+  }
+  const RunMetrics metrics = measure_run(record);
+  if (metrics.errors->scored == 0) {
+    throw std::runtime_error(options.reference.string() +
+                             ": has no scored pose for any step of the run");
+  }
+  const SketchErrors& errors = *metrics.errors;
+  return {.table = error_text(errors) + heading_row() +
+                   summary_row("position, m", errors.translation_m) +
+                   summary_row("position, px", errors.translation_px) +
+                   summary_row("heading, deg", scaled(*errors.heading_rad, deg_from_rad(1.0))),
+          .json = to_json(metrics)};
+}
+
+void check_inputs(const EvaluateOptions& options) {
+  if (options.trajectory.empty() == options.run.empty()) {
+    throw std::invalid_argument("evaluate needs one of --trajectory EST.tum and --run DIR");
+  }
+  if (!options.run.empty() && options.map.empty()) {
+    throw std::invalid_argument(
+        "--run needs --map DRAWING as well: the reference counts its rows from the top");
+  }
+}
+
+RunDescription description_of(const EvaluateOptions& options) {
+  RunDescription description{.command = "evaluate",
+                             .seed = 0,
+                             .inputs = {{"reference", options.reference.string()}},
+                             .parameters = {.is_map = true}};
+  const fs::path& estimate = options.run.empty() ? options.trajectory : options.run;
+  description.inputs.emplace_back(options.run.empty() ? "trajectory" : "run", estimate.string());
+  return description;
+}
+
+void run_evaluate(const EvaluateOptions& options) {
+  check_inputs(options);
+  validate(options.loss);
+  const Evaluation found =
+      options.run.empty() ? evaluate_trajectory(options) : evaluate_run(options);
+  if (!options.out.empty()) {
+    OutputFolder out(options.out, options.force);
+    write_atomically(out / "metrics.json", found.json);
+    write_atomically(out / "run.yaml", run_file_text(description_of(options)));
+    out.commit();
+  }
+  std::cout << (options.json ? found.json : found.table);
+}
+
+void add_algorithm_options(CLI::App& command, EvaluateOptions& options) {
+  const auto option = [&](const std::string& flag, auto& value, const std::string& help) {
+    return command.add_option(flag, value, help)->group(kAlgorithmGroup);
+  };
+  option("--trajectory", options.trajectory, "A metric trajectory")->type_name("EST.tum");
+  option("--run", options.run, "Or a folder that localize wrote")->type_name("DIR");
+  option("--reference", options.reference,
+         "What to compare with: a trajectory, or the poses of the run in the drawing")
+      ->required()
+      ->type_name("REF.tum|REF.csv");
+  option("--map", options.map, "The drawing of the run")->type_name("DRAWING");
+  option("--alternative", options.alternatives,
+         "Another reading of the drawing that counts as right too")
+      ->type_name("ALT.csv");
+  option("--max-gap", options.max_gap_s, "Between the times of two poses of a pair, s")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  option("--delta-m", options.deltas_m, "Ways for the relative error, m")->capture_default_str();
+  option("--delta-frames", options.deltas_frames, "Numbers of poses for the relative error")
+      ->capture_default_str();
+  option("--lost-beyond", options.loss.bound_m, "Error that counts as lost, m")
+      ->capture_default_str();
+}
+
+void add_output_options(CLI::App& command, EvaluateOptions& options) {
+  command.add_flag("--json", options.json, "Print metrics.json instead of a table")
+      ->group(kOutputGroup);
+  command.add_option("--out", options.out, "Folder for metrics.json and run.yaml")
+      ->group(kOutputGroup)
+      ->type_name("DIR");
+  command.add_flag("--force", options.force, "Replace an earlier result")->group(kOutputGroup);
+}
+
+}  // namespace
+
+void add_evaluate_command(CLI::App& program) {
+  CLI::App* command = program.add_subcommand(
+      "evaluate", "Compare a trajectory, or a run in a drawing, with a reference.");
+  auto options = std::make_shared<EvaluateOptions>();
+  add_algorithm_options(*command, *options);
+  add_output_options(*command, *options);
+  command->callback([options] { run_evaluate(*options); });
+}
+
+}  // namespace sketchloc

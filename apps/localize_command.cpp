@@ -1,0 +1,277 @@
+#include "apps/localize_command.hpp"
+
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "apps/memory.hpp"
+#include "apps/output_folder.hpp"
+#include "apps/program.hpp"
+#include "apps/progress.hpp"
+#include "apps/result_files.hpp"
+#include "apps/start_pose.hpp"
+#include "apps/version.hpp"
+#include "datasets/io/reference_io.hpp"
+#include "datasets/io/run_io.hpp"
+#include "datasets/io/sketch_io.hpp"
+
+namespace sketchloc {
+
+template <typename Visitor>
+void visit_fields(LocalizationParams& params, Visitor&& visit) {
+  visit("localizer", params.localizer);
+  visit("odometry", params.odometry);
+}
+
+namespace {
+
+const std::map<std::string, Method> kMethods = {{"mcl", Method::Mcl},
+                                                {"odometry", Method::Odometry}};
+const std::map<std::string, OdometrySource> kOdometrySources = {
+    {"matched", OdometrySource::Matched}, {"raw", OdometrySource::Raw}};
+
+template <typename T>
+std::string name_of(const std::map<std::string, T>& names, T value) {
+  return std::ranges::find(names, value, &std::pair<const std::string, T>::second)->first;
+}
+
+void check_starts(const LocalizeOptions& options) {
+  const int starts = (options.start.empty() ? 0 : 1) + (options.start_from_reference ? 1 : 0) +
+                     (options.global ? 1 : 0);
+  if (starts > 1) {
+    throw std::invalid_argument(
+        "give one of --start, --start-from-reference and --global, not several");
+  }
+  if (options.start_from_reference && options.reference.empty()) {
+    throw std::invalid_argument("--start-from-reference needs --reference REF.csv");
+  }
+  if (starts == 0 && options.method == Method::Odometry) {
+    throw std::invalid_argument("--method odometry needs --start or --start-from-reference");
+  }
+}
+
+/// Reads all inputs into the record of the run.
+RunRecord read_inputs(const LocalizeOptions& options) {
+  RunRecord record;
+  record.seed = options.seed;
+  record.commit = std::string(commit());
+  record.sketch = read_any_drawing(options.map);
+  RunFile log = read_run_file(options.log, {.allow_truncated = options.allow_truncated});
+  for (const std::string& note : log.notes) {
+    spdlog::info("{}", note);
+  }
+  record.run = std::move(log.run);
+  if (!options.reference.empty()) {
+    record.reference = read_reference(options.reference, record.sketch.height_px());
+    for (const std::filesystem::path& csv : options.alternatives) {
+      record.alternatives.push_back(
+          as_reference(read_alternative(csv, record.sketch.height_px()), *record.reference));
+    }
+  }
+  return record;
+}
+
+Sim2 typed_start(const LocalizeOptions& options, const RunRecord& record) {
+  const StartPose start = parse_start_pose(options.start);
+  std::optional<double> px_per_m = start.px_per_m ? start.px_per_m : record.sketch.px_per_m;
+  if (!px_per_m) {
+    px_per_m = guess_px_per_m(record.sketch, start.place_in_sketch, start.heading_rad,
+                              record.run.steps.front().scan);
+    if (!px_per_m) {
+      throw std::runtime_error(
+          "--start without PX_PER_M: the first scan does not tell the scale there; give PX_PER_M");
+    }
+    spdlog::info("the first scan suggests {:.1f} px/m at the start", *px_per_m);
+  }
+  return Sim2::from_xy_yaw_scale(start.place_in_sketch.x(), start.place_in_sketch.y(),
+                                 start.heading_rad, *px_per_m);
+}
+
+/// Where the run starts; none: anywhere.
+std::optional<Sim2> start_of(const LocalizeOptions& options, const RunRecord& record) {
+  if (!options.start.empty()) {
+    return typed_start(options, record);
+  }
+  if (!options.start_from_reference) {
+    return std::nullopt;
+  }
+  const auto& poses = record.reference->poses;
+  if (poses.empty() || poses.front().step != 0) {
+    throw std::runtime_error(options.reference.string() +
+                             ": has no pose for the first scan, so --start-from-reference cannot "
+                             "use it; give --start");
+  }
+  return poses.front().sketch_from_robot;
+}
+
+void require_done(Localization::Status status, const LocalizeOptions& options) {
+  switch (status) {
+    case Localization::Status::Done:
+      return;
+    case Localization::Status::EmptyRun:
+      throw std::runtime_error(options.log.string() + ": has no scans");
+    case Localization::Status::NoFreeSpace:
+      throw std::runtime_error(options.map.string() +
+                               ": encloses no free space to start in; give --start");
+    case Localization::Status::NoStart:
+      throw std::invalid_argument("--method odometry needs --start or --start-from-reference");
+  }
+}
+
+/// A map in true proportions has other defaults than a drawing.
+LocalizationParams parameters_for(const Sketch& sketch, const LocalizeOptions& options) {
+  LocalizationParams defaults;
+  if (sketch.px_per_m) {
+    defaults.localizer = metric_localizer_params();
+  }
+  LocalizationParams params = parameters_from<LocalizationParams>(options.parameters, defaults);
+  params.localizer.seed = options.seed;
+  params.localizer.jobs = options.jobs;
+  validate(params);
+  return params;
+}
+
+/// Fills the record with what the method found and what it took.
+void localize_into(RunRecord& record, const LocalizeOptions& options,
+                   const LocalizationParams& params) {
+  using Clock = std::chrono::steady_clock;
+  if (record.run.steps.empty()) {
+    require_done(Localization::Status::EmptyRun, options);
+  }
+  const LocalizationTask task{.method = options.method,
+                              .odometry = options.odometry,
+                              .start_sketch_from_robot = start_of(options, record)};
+  Progress progress("localize", record.run.steps.size());
+  const Clock::time_point begin = Clock::now();
+  Localization found = localize(record.sketch, record.run, task, params,
+                                [&](std::size_t done) { progress.update(done); });
+  record.cost = RunCost{.seconds = std::chrono::duration<double>(Clock::now() - begin).count(),
+                        .peak_memory_mb = peak_memory_mb()};
+  require_done(found.status, options);
+  record.steps = std::move(found.steps);
+  record.snapshots = std::move(found.snapshots);
+}
+
+std::string start_text(const LocalizeOptions& options) {
+  return !options.start.empty()         ? options.start
+         : options.start_from_reference ? "first pose of the reference"
+                                        : "anywhere in the drawing";
+}
+
+RunDescription description_of(const LocalizeOptions& options, const LocalizationParams& params) {
+  RunDescription description{.command = "localize",
+                             .seed = options.seed,
+                             .inputs = {{"map", options.map.string()},
+                                        {"log", options.log.string()},
+                                        {"start", start_text(options)},
+                                        {"method", name_of(kMethods, options.method)},
+                                        {"odometry", name_of(kOdometrySources, options.odometry)}},
+                             .parameters = to_config(params)};
+  if (!options.reference.empty()) {
+    description.inputs.emplace_back("reference", options.reference.string());
+  }
+  for (const std::filesystem::path& csv : options.alternatives) {
+    description.inputs.emplace_back("alternative", csv.string());
+  }
+  return description;
+}
+
+/// What the report says about the run, apart from its figures.
+void describe(RunRecord& record, const LocalizeOptions& options, const LocalizationParams& params) {
+  record.title = options.title.empty()
+                     ? options.map.filename().string() + " with " + options.log.filename().string()
+                     : options.title;
+  record.inputs = {{"drawing", options.map.filename().string()},
+                   {"log", options.log.filename().string()},
+                   {"start", start_text(options)},
+                   {"method", name_of(kMethods, options.method) + " on " +
+                                  name_of(kOdometrySources, options.odometry) + " odometry"}};
+  record.parameters = to_yaml(to_config(params));
+}
+
+void add_algorithm_options(CLI::App& command, LocalizeOptions& options) {
+  const auto option = [&](const std::string& flag, auto& value, const std::string& help) {
+    return command.add_option(flag, value, help)->group(kAlgorithmGroup);
+  };
+  option("--map", options.map, "The drawing: PNG, JPEG, PGM, or a map_server YAML")
+      ->required()
+      ->type_name("DRAWING");
+  option("--log", options.log, "The robot's log: CARMEN or JSON lines, plain or gzip")
+      ->required()
+      ->type_name("LOG");
+  option("--start", options.start,
+         "Where the robot starts in the drawing: x right and y up from the lower left corner in "
+         "px, heading counter-clockwise")
+      ->type_name("X,Y,HEADING_DEG[,PX_PER_M]");
+  command
+      .add_flag("--start-from-reference", options.start_from_reference,
+                "Start at the reference's first pose")
+      ->group(kAlgorithmGroup);
+  command.add_flag("--global", options.global, "Start anywhere in the drawing (default)")
+      ->group(kAlgorithmGroup);
+  option("--method", options.method, "mcl, or odometry: dead reckoning from the start")
+      ->transform(CLI::CheckedTransformer(kMethods, CLI::ignore_case).description(""))
+      ->type_name("NAME");
+  option("--odometry", options.odometry, "matched (refined by scan matching) or raw")
+      ->transform(CLI::CheckedTransformer(kOdometrySources, CLI::ignore_case).description(""))
+      ->type_name("NAME");
+  option("--seed", options.seed, "Of all randomness; the same seed gives the same result")
+      ->capture_default_str();
+}
+
+void add_other_options(CLI::App& command, LocalizeOptions& options) {
+  command.add_option("--out", options.out, "Folder of the results")
+      ->required()
+      ->group(kOutputGroup)
+      ->type_name("DIR");
+  command.add_option("--reference", options.reference, "Where the robot was, to compare with")
+      ->group(kOutputGroup)
+      ->type_name("REF.csv");
+  command
+      .add_option("--alternative", options.alternatives,
+                  "Another reading of the drawing that counts as right too")
+      ->group(kOutputGroup)
+      ->type_name("ALT.csv");
+  command.add_option("--title", options.title, "Of the report")->group(kOutputGroup);
+  command.add_flag("--force", options.force, "Replace an earlier result")->group(kOutputGroup);
+  command.add_option("--jobs", options.jobs, "Threads; the result does not depend on their number")
+      ->group(kUsabilityGroup)
+      ->capture_default_str();
+  command
+      .add_flag("--allow-truncated", options.allow_truncated,
+                "Keep the whole lines of a log that was cut off")
+      ->group(kUsabilityGroup);
+}
+
+}  // namespace
+
+void run_localize(const LocalizeOptions& options) {
+  check_starts(options);
+  OutputFolder out(options.out, options.force);
+  RunRecord record = read_inputs(options);
+  const LocalizationParams params = parameters_for(record.sketch, options);
+  localize_into(record, options, params);
+  describe(record, options, params);
+  write_result_files(out, record, description_of(options, params));
+  out.commit();
+  std::cout << summary_text(record) << "report: " << (out.target() / "report.html").string()
+            << "\n";
+}
+
+void add_localize_command(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("localize", "Find the path of a robot in a drawing, from its log.");
+  auto options = std::make_shared<LocalizeOptions>();
+  add_algorithm_options(*command, *options);
+  add_parameter_options(*command, to_config(LocalizationParams{}), options->parameters);
+  add_other_options(*command, *options);
+  command->callback([options] { run_localize(*options); });
+}
+
+}  // namespace sketchloc

@@ -1,0 +1,81 @@
+#include "apps/result_files.hpp"
+
+#include <spdlog/fmt/fmt.h>
+
+#include <algorithm>
+
+#include "datasets/io/atomic_file.hpp"
+#include "datasets/io/trajectory_io.hpp"
+#include "eval/picture.hpp"
+#include "eval/report.hpp"
+#include "eval/step_table.hpp"
+#include "motion/angles.hpp"
+
+namespace sketchloc {
+namespace {
+
+/// Times of a log need not increase strictly, those of a trajectory do: of poses at one time the
+/// last counts.
+SketchTrajectory trajectory_of(const std::vector<StepReport>& steps) {
+  SketchTrajectory trajectory;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const bool last_at_its_time = i + 1 == steps.size() || steps[i + 1].time_s > steps[i].time_s;
+    if (last_at_its_time) {
+      trajectory.append(steps[i].time_s, steps[i].estimate.sketch_from_robot);
+    }
+  }
+  return trajectory;
+}
+
+}  // namespace
+
+Reference as_reference(const std::vector<AlternativePose>& alternative, const Reference& first) {
+  Reference reference;
+  for (const AlternativePose& pose : alternative) {
+    const auto same = std::ranges::find(first.poses, pose.step, &ReferencePose::step);
+    if (same != first.poses.end()) {
+      reference.poses.push_back({.step = pose.step,
+                                 .time_s = pose.time_s,
+                                 .sketch_from_robot = pose.sketch_from_robot,
+                                 .uncertainty_m = same->uncertainty_m,
+                                 .scored = same->scored});
+    }
+  }
+  return reference;
+}
+
+std::string error_text(const SketchErrors& errors) {
+  return fmt::format(
+      "within 1 m / 2 m of the reference: {:.0f} % / {:.0f} % of {} steps\n"
+      "median error: {:.2f} m, {:.1f} deg; 90 % below {:.2f} m\n"
+      "first lost: {}; at the end: {}\n",
+      100.0 * errors.share_within_1_m, 100.0 * errors.share_within_2_m, errors.scored,
+      errors.translation_m->median, deg_from_rad(errors.heading_rad->median),
+      errors.translation_m->p90,
+      errors.first_loss_s ? fmt::format("after {:.0f} s", *errors.first_loss_s) : "never",
+      errors.lost_at_end ? "lost" : "located");
+}
+
+void write_result_files(const OutputFolder& out, const RunRecord& record,
+                        const RunDescription& description) {
+  write_tum(out / "trajectory.tum", trajectory_of(record.steps));
+  write_atomically(out / "trajectory.csv", step_table_csv(record.steps));
+  write_atomically(out / "metrics.json", to_json(measure_run(record)));
+  write_atomically(out / "report.html", report_html(record));
+  write_atomically(out / "picture.png", picture_png(record));
+  write_atomically(out / "run.yaml", run_file_text(description));
+}
+
+std::string summary_text(const RunRecord& record) {
+  const RunMetrics metrics = measure_run(record);
+  std::string text =
+      metrics.errors && metrics.errors->scored > 0 ? error_text(*metrics.errors) : std::string();
+  text += fmt::format("{} poses", metrics.poses);
+  if (metrics.cost) {
+    text += fmt::format(" in {:.1f} s, peak memory {:.0f} MB", metrics.cost->seconds,
+                        metrics.cost->peak_memory_mb);
+  }
+  return text + "\n";
+}
+
+}  // namespace sketchloc

@@ -1,0 +1,141 @@
+#include "eval/localization.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "motion/check.hpp"
+#include "registration/ray_caster.hpp"
+
+namespace sketchloc {
+namespace {
+
+constexpr std::size_t kSnapshots = 80;
+constexpr std::size_t kParticlesShown = 400;
+
+/// Odometry of a run, refined if asked for.
+class OdometryFeed {
+ public:
+  OdometryFeed(OdometrySource source, const MatchedOdometryParams& params)
+      : source_(source), matched_(params) {}
+
+  Se2 odom_from_robot(const RunStep& step) {
+    return source_ == OdometrySource::Raw
+               ? step.odom_from_robot
+               : matched_.step(step.scan, step.odom_from_robot).odom_from_robot;
+  }
+
+ private:
+  OdometrySource source_;
+  MatchedOdometry matched_;
+};
+
+/// As many particles as one looks at, drawn by weight.
+ParticleSnapshot snapshot_of(const ParticleSet& particles, std::size_t step, std::uint64_t seed) {
+  Rng rng = make_rng(seed, step);
+  std::vector<std::uint32_t> shown(std::min(kParticlesShown, particles.size()));
+  systematic_parents(particles.log_weight, shown, rng);
+  ParticleSnapshot snapshot{.step = step, .particles = {}};
+  for (const std::uint32_t i : shown) {
+    snapshot.particles.push_back({.x_px = particles.x_px[i],
+                                  .y_px = particles.y_px[i],
+                                  .yaw_rad = particles.heading_rad[i],
+                                  .weight = 1.0F / static_cast<float>(shown.size())});
+  }
+  return snapshot;
+}
+
+Localization localize_by_filter(const Sketch& sketch, const Run& run, const LocalizationTask& task,
+                                const LocalizationParams& params,
+                                const std::function<void(std::size_t)>& progress) {
+  Localization result;
+  Localizer localizer(sketch, params.localizer);
+  if (task.start_sketch_from_robot) {
+    localizer.start_at(*task.start_sketch_from_robot);
+  } else if (!localizer.start_anywhere(run.steps.front().scan)) {
+    result.status = Localization::Status::NoFreeSpace;
+    return result;
+  }
+  OdometryFeed odometry(task.odometry, params.odometry);
+  const std::size_t snapshot_every = run.steps.size() / kSnapshots + 1;
+  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+    const RunStep& step = run.steps[i];
+    result.steps.push_back(localizer.step(step.scan, odometry.odom_from_robot(step)));
+    if (i % snapshot_every == 0) {
+      result.snapshots.push_back(snapshot_of(localizer.particles(), i, params.localizer.seed));
+    }
+    if (progress) {
+      progress(i + 1);
+    }
+  }
+  return result;
+}
+
+StepReport dead_reckoned(std::size_t step, double time_s, const Sim2& sketch_from_robot) {
+  StepReport report;
+  report.step = step;
+  report.time_s = time_s;
+  report.estimate.sketch_from_robot = sketch_from_robot;
+  report.estimate.covariance = Eigen::Matrix4d::Zero();
+  return report;
+}
+
+Localization reckon(const Run& run, const LocalizationTask& task, const LocalizationParams& params,
+                    const std::function<void(std::size_t)>& progress) {
+  Localization result;
+  if (!task.start_sketch_from_robot) {
+    result.status = Localization::Status::NoStart;
+    return result;
+  }
+  OdometryFeed odometry(task.odometry, params.odometry);
+  std::optional<Se2> odom_from_start;
+  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+    const Se2 odom_from_robot = odometry.odom_from_robot(run.steps[i]);
+    odom_from_start = odom_from_start.value_or(odom_from_robot);
+    const Se2 start_from_robot = odom_from_start->inverse() * odom_from_robot;
+    result.steps.push_back(dead_reckoned(i, run.steps[i].scan.time_s,
+                                         *task.start_sketch_from_robot * start_from_robot));
+    if (progress) {
+      progress(i + 1);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+void validate(const LocalizationParams& params) {
+  validate(params.localizer);
+  validate(params.odometry);
+}
+
+Localization localize(const Sketch& sketch, const Run& run, const LocalizationTask& task,
+                      const LocalizationParams& params,
+                      const std::function<void(std::size_t)>& progress) {
+  validate(params);
+  if (run.steps.empty()) {
+    Localization nothing;
+    nothing.status = Localization::Status::EmptyRun;
+    return nothing;
+  }
+  return task.method == Method::Odometry ? reckon(run, task, params, progress)
+                                         : localize_by_filter(sketch, run, task, params, progress);
+}
+
+std::optional<double> guess_px_per_m(const Sketch& sketch, const Eigen::Vector2d& place_in_sketch,
+                                     double heading_rad, const Scan& scan) {
+  const RayCaster caster(sketch.occupied);
+  const float diagonal_px =
+      std::hypot(static_cast<float>(sketch.width_px()), static_cast<float>(sketch.height_px()));
+  std::vector<double> ratios;
+  for (const Eigen::Vector2d& point_in_robot : end_points_in_robot(scan)) {
+    const double bearing_rad = std::atan2(point_in_robot.y(), point_in_robot.x());
+    const float range_px =
+        caster.range(place_in_sketch, static_cast<float>(heading_rad + bearing_rad), diagonal_px);
+    if (range_px > 0.0F && range_px < diagonal_px && point_in_robot.norm() > 0.0) {
+      ratios.push_back(range_px / point_in_robot.norm());
+    }
+  }
+  return ratios.empty() ? std::nullopt : std::optional(quantile(ratios, 0.5));
+}
+
+}  // namespace sketchloc

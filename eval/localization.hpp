@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "datasets/run.hpp"
+#include "datasets/sketch.hpp"
+#include "eval/run_record.hpp"
+#include "filter/localizer.hpp"
+#include "registration/matched_odometry.hpp"
+
+namespace sketchloc {
+
+/// What finds the robot in the drawing.
+enum class Method {
+  Mcl,      ///< Monte Carlo localization
+  Odometry  ///< dead reckoning from the start: what the others must beat
+};
+
+/// Which odometry the method gets.
+enum class OdometrySource {
+  Matched,  ///< refined by matching scans with a submap
+  Raw       ///< as the wheels measured it
+};
+
+struct LocalizationParams {
+  LocalizerParams localizer;
+  MatchedOdometryParams odometry;
+};
+
+/// Throws std::invalid_argument naming the component and field, its range and its value.
+void validate(const LocalizationParams& params);
+
+struct LocalizationTask {
+  Method method = Method::Mcl;
+  OdometrySource odometry = OdometrySource::Matched;
+  std::optional<Sim2> start_sketch_from_robot =
+      std::nullopt;  ///< none: anywhere in the drawing; MCL only
+};
+
+struct Localization {
+  enum class Status {
+    Done,
+    EmptyRun,     ///< no steps
+    NoFreeSpace,  ///< the drawing encloses nothing to start in
+    NoStart       ///< dead reckoning needs a start
+  };
+  Status status = Status::Done;
+  std::vector<StepReport> steps;            ///< one per step of the run, if Done
+  std::vector<ParticleSnapshot> snapshots;  ///< spread evenly over the run
+};
+
+/// Localizes a whole run. `progress` hears the number of steps done after each one; it may throw
+/// to stop the work.
+Localization localize(const Sketch& sketch, const Run& run, const LocalizationTask& task,
+                      const LocalizationParams& params = {},
+                      const std::function<void(std::size_t)>& progress = {});
+
+/// The local scale (px/m) at a place of the drawing, from how far a scan sees there and how far the
+/// drawing lets it see: the median ratio over the beams. None where no beam tells.
+std::optional<double> guess_px_per_m(const Sketch& sketch, const Eigen::Vector2d& place_in_sketch,
+                                     double heading_rad, const Scan& scan);
+
+}  // namespace sketchloc

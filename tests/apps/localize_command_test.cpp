@@ -1,0 +1,189 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "datasets/io/reference_io.hpp"
+#include "datasets/io/run_io.hpp"
+#include "datasets/io/trajectory_io.hpp"
+#include "datasets/sim/data_set.hpp"
+#include "motion/angles.hpp"
+#include "tests/support/run_command.hpp"
+#include "tests/support/shared_data.hpp"
+
+namespace sketchloc {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::CommandResult;
+using ::testing::HasSubstr;
+using testing::TemporaryDirectory;
+
+std::string content_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+void write_pgm(const fs::path& file, const Sketch& sketch) {
+  std::ofstream out(file, std::ios::binary);
+  out << "P5\n" << sketch.width_px() << " " << sketch.height_px() << "\n255\n";
+  for (int row = sketch.height_px() - 1; row >= 0; --row) {
+    for (const std::uint8_t cell : sketch.occupied.row(row)) {
+      out.put(cell != 0 ? '\0' : '\xFF');
+    }
+  }
+}
+
+/// A small simulated home in files, made once for all tests.
+class LocalizeCommandEndToEnd : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    inputs_ = new TemporaryDirectory();
+    DataSetParams params;
+    params.building = BuildingKind::Home;
+    params.drive.length_m = 8.0;
+    const DataSet made = generate_data_set(params, 3);
+    write_pgm(*inputs_ / "home & <garden>.pgm", made.drawing.sketch);
+    write_jsonl(*inputs_ / "log.jsonl", made.run);
+    write_reference(*inputs_ / "reference.csv", made.reference, made.drawing.sketch.height_px());
+    start_sketch_from_robot_ = made.reference.poses.front().sketch_from_robot;
+  }
+  static void TearDownTestSuite() { delete inputs_; }
+
+  CommandResult localize(const fs::path& out, const std::vector<std::string>& more,
+                         fs::path log = {}) const {
+    log = log.empty() ? *inputs_ / "log.jsonl" : log;
+    std::vector<std::string> command = {SKETCHLOC_PROGRAM,
+                                        "localize",
+                                        "--map",
+                                        (*inputs_ / "home & <garden>.pgm").string(),
+                                        "--log",
+                                        log.string(),
+                                        "--out",
+                                        out.string(),
+                                        "--localizer.particles.max_particles",
+                                        "2000",
+                                        "--localizer.table.memory_mb",
+                                        "20"};
+    command.insert(command.end(), more.begin(), more.end());
+    return testing::run_command(command);
+  }
+  std::vector<std::string> with_reference() const {
+    return {"--reference", (*inputs_ / "reference.csv").string(), "--start-from-reference"};
+  }
+
+  static TemporaryDirectory* inputs_;
+  static Sim2 start_sketch_from_robot_;
+  TemporaryDirectory outputs_;
+};
+
+TemporaryDirectory* LocalizeCommandEndToEnd::inputs_ = nullptr;
+Sim2 LocalizeCommandEndToEnd::start_sketch_from_robot_;
+
+TEST_F(LocalizeCommandEndToEnd, WritesAFolderOfResults) {
+  const fs::path out = outputs_ / "result";
+  const CommandResult result = localize(out, with_reference());
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("within 1 m / 2 m of the reference"));
+  for (const char* file : {"trajectory.tum", "trajectory.csv", "metrics.json", "report.html",
+                           "picture.png", "run.yaml"}) {
+    EXPECT_GT(fs::file_size(out / file), 0U) << file;
+  }
+  EXPECT_GT(read_tum(out / "trajectory.tum").size(), 5U);
+  EXPECT_THAT(content_of(out / "metrics.json"), HasSubstr("\"share_within_2_m\""));
+  EXPECT_THAT(content_of(out / "report.html"), HasSubstr("home &amp; &lt;garden&gt;.pgm"));
+}
+
+TEST_F(LocalizeCommandEndToEnd, GivesTheSameTrajectoryForTheSameSeed) {
+  ASSERT_EQ(localize(outputs_ / "one", with_reference()).exit_code, 0);
+  std::vector<std::string> more = with_reference();
+  more.insert(more.end(), {"--jobs", "2"});
+  ASSERT_EQ(localize(outputs_ / "two", more).exit_code, 0);
+  EXPECT_EQ(content_of(outputs_ / "one/trajectory.csv"),
+            content_of(outputs_ / "two/trajectory.csv"));
+  ASSERT_EQ(localize(outputs_ / "three", {"--seed", "2", "--global"}).exit_code, 0);
+  EXPECT_NE(content_of(outputs_ / "one/trajectory.csv"),
+            content_of(outputs_ / "three/trajectory.csv"));
+}
+
+TEST_F(LocalizeCommandEndToEnd, RunsAgainFromItsRunFile) {
+  ASSERT_EQ(localize(outputs_ / "one", with_reference()).exit_code, 0);
+  std::vector<std::string> more = with_reference();
+  more.insert(more.end(), {"--config", (outputs_ / "one/run.yaml").string()});
+  ASSERT_EQ(localize(outputs_ / "two", more).exit_code, 0);
+  EXPECT_EQ(content_of(outputs_ / "one/trajectory.csv"),
+            content_of(outputs_ / "two/trajectory.csv"));
+}
+
+TEST_F(LocalizeCommandEndToEnd, NeverReplacesAResultUnlessForced) {
+  const fs::path out = outputs_ / "result";
+  ASSERT_EQ(localize(out, with_reference()).exit_code, 0);
+  const CommandResult again = localize(out, with_reference());
+  EXPECT_EQ(again.exit_code, 2);
+  EXPECT_THAT(again.err, HasSubstr("--force"));
+  std::vector<std::string> forced = with_reference();
+  forced.emplace_back("--force");
+  EXPECT_EQ(localize(out, forced).exit_code, 0);
+}
+
+TEST_F(LocalizeCommandEndToEnd, FindsTheScaleOfATypedStart) {
+  std::ostringstream start;
+  start << start_sketch_from_robot_.x() << "," << start_sketch_from_robot_.y() << ","
+        << deg_from_rad(start_sketch_from_robot_.yaw_rad());
+  const CommandResult guessed = localize(outputs_ / "guessed", {"--start", start.str()});
+  EXPECT_EQ(guessed.exit_code, 0) << guessed.err;
+  EXPECT_THAT(guessed.err, HasSubstr("px/m at the start"));
+  const CommandResult typed = localize(outputs_ / "typed", {"--start", start.str() + ",20"});
+  EXPECT_EQ(typed.exit_code, 0) << typed.err;
+}
+
+TEST_F(LocalizeCommandEndToEnd, SaysWhatIsWrongWithItsOptions) {
+  const auto fails_with = [&](const std::vector<std::string>& more, const std::string& message) {
+    const CommandResult result = localize(outputs_ / "result", more);
+    EXPECT_EQ(result.exit_code, 2) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(message));
+    EXPECT_FALSE(fs::exists(outputs_ / "result"));
+  };
+  fails_with({"--start", "1,2,3,4", "--global"}, "not several");
+  fails_with({"--start-from-reference"}, "needs --reference");
+  fails_with({"--method", "odometry"}, "needs --start");
+  fails_with({"--method", "magic"}, "--method");
+  fails_with({"--start", "1,2"}, "X,Y,HEADING_DEG");
+  fails_with({"--localizer.gate.way_m", "-1"}, "way_m");
+}
+
+TEST_F(LocalizeCommandEndToEnd, LeavesNothingBehindWhenTheDataFail) {
+  std::ofstream(outputs_ / "bad.jsonl") << "no json\n";
+  const CommandResult result = localize(outputs_ / "result", {}, outputs_ / "bad.jsonl");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("bad.jsonl"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(outputs_.path()), fs::directory_iterator()), 1);
+}
+
+TEST_F(LocalizeCommandEndToEnd, IsEvaluatedAgainWithTheSameFigures) {
+  const fs::path out = outputs_ / "result";
+  ASSERT_EQ(localize(out, with_reference()).exit_code, 0);
+  const CommandResult result =
+      testing::run_command({SKETCHLOC_PROGRAM, "evaluate", "--run", out.string(), "--map",
+                            (*inputs_ / "home & <garden>.pgm").string(), "--reference",
+                            (*inputs_ / "reference.csv").string(), "--json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json written = nlohmann::json::parse(content_of(out / "metrics.json"));
+  const nlohmann::json again = nlohmann::json::parse(result.out);
+  EXPECT_EQ(again.at("share_within_1_m"), written.at("share_within_1_m"));
+  EXPECT_NEAR(again.at("translation_error_m").at("rmse").get<double>(),
+              written.at("translation_error_m").at("rmse").get<double>(), 1e-9);
+  EXPECT_NEAR(again.at("heading_error_deg").at("mean").get<double>(),
+              written.at("heading_error_deg").at("mean").get<double>(), 1e-9);
+  EXPECT_TRUE(again.at("seconds").is_null());
+}
+
+}  // namespace
+}  // namespace sketchloc
