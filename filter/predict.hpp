@@ -16,7 +16,7 @@ struct DeformationWalk {
   double shear_per_m = 0.2;      ///< the same across the way, >= 0
   double heading_rad = 0.05;     ///< walk of the local rotation, >= 0
   double log_scale = 0.08;       ///< walk of the local log scale, >= 0
-  double scale_memory_m = 6.0;   ///< way after which the local scale returns to its mean, > 0
+  double scale_memory_m = 9.0;   ///< way after which the local scale returns to its mean, > 0
   double log_mean_scale = 0.03;  ///< walk of that mean itself, >= 0
   double strain = 0.15;          ///< walk of either strain component, >= 0
   double strain_memory_m = 8.0;  ///< way after which the strain returns to none, > 0
