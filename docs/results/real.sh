@@ -45,11 +45,13 @@ table() { # drawing log alternative-or-empty
   run "$1" "$2" "$3" odometry_raw 1 --start-from-reference --method odometry --odometry raw
   run "$1" "$2" "$3" odometry_matched 1 --start-from-reference --method odometry
   for seed in $(seq "$seeds"); do
-    run "$1" "$2" "$3" end_points "$seed" --start-from-reference --localizer.measurement end_points
+    run "$1" "$2" "$3" mcl "$seed" --start-from-reference
+  done
+  for seed in $(seq "$seeds"); do
     run "$1" "$2" "$3" similarity_only "$seed" --start-from-reference \
       --localizer.predict.deformation.strain 0 --localizer.start.strain 0
+    run "$1" "$2" "$3" end_points "$seed" --start-from-reference --localizer.measurement end_points
     run "$1" "$2" "$3" mcl_raw_odometry "$seed" --start-from-reference --odometry raw
-    run "$1" "$2" "$3" mcl "$seed" --start-from-reference
     run "$1" "$2" "$3" mcl_global_start "$seed" --global
   done
   printf '\n%s\n\n' "$1"
@@ -61,6 +63,7 @@ table() { # drawing log alternative-or-empty
   done
 }
 
-table intel_sketch_3_rot180 intel ""
-table belgioioso_sketch belgioioso \
-  "--alternative $data/references/belgioioso_sketch/reference_alternative_B.csv"
+# DRAWINGS=intel or DRAWINGS=belgioioso makes one of the two tables only.
+case ${DRAWINGS:-both} in both | intel) table intel_sketch_3_rot180 intel "" ;; esac
+case ${DRAWINGS:-both} in both | belgioioso) table belgioioso_sketch belgioioso \
+  "--alternative $data/references/belgioioso_sketch/reference_alternative_B.csv" ;; esac

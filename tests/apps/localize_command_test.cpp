@@ -68,6 +68,8 @@ class LocalizeCommandEndToEnd : public ::testing::Test {
                                         log.string(),
                                         "--out",
                                         out.string(),
+                                        "--localizer.particles.min_particles",
+                                        "1000",
                                         "--localizer.particles.max_particles",
                                         "2000",
                                         "--localizer.table.memory_mb",
@@ -160,7 +162,7 @@ TEST_F(LocalizeCommandEndToEnd, SaysWhatIsWrongWithItsOptions) {
 }
 
 TEST_F(LocalizeCommandEndToEnd, LeavesNothingBehindWhenTheDataFail) {
-  std::ofstream(outputs_ / "bad.jsonl") << "no json\n";
+  std::ofstream(outputs_ / "bad.jsonl") << "{\"time_s\": 0\n";
   const CommandResult result = localize(outputs_ / "result", {}, outputs_ / "bad.jsonl");
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("bad.jsonl"));

@@ -9,7 +9,9 @@
 #include "datasets/sim/lidar_model.hpp"
 #include "datasets/sim/odometry_model.hpp"
 #include "datasets/sim/person.hpp"
+#include "filter/localizer.hpp"
 #include "motion/odometry.hpp"
+#include "registration/matched_odometry.hpp"
 #include "tests/support/field_count.hpp"
 
 namespace sketchloc {
@@ -18,8 +20,11 @@ namespace {
 /// Every parameter struct that a command reads, the ones inside others by themselves.
 template <typename T>
 class Parameters : public ::testing::Test {};
-using ParameterStructs = ::testing::Types<OdometryNoise, PersonParams, DriveParams, LidarModel,
-                                          OdometryModel, MapReadingParams>;
+using ParameterStructs =
+    ::testing::Types<OdometryNoise, PersonParams, DriveParams, LidarModel, OdometryModel,
+                     MapReadingParams, PredictParams, BeamModelParams, EndPointModelParams,
+                     KldParams, ModeParams, MotionGate, StartSpread, RecoveryParams,
+                     RangeTableParams, MatchedOdometryParams>;
 TYPED_TEST_SUITE(Parameters, ParameterStructs);
 
 template <ParameterStruct T>
