@@ -3,6 +3,7 @@
 #include <array>
 
 #include "apps/convert_command.hpp"
+#include "apps/demo_command.hpp"
 #include "apps/evaluate_command.hpp"
 #include "apps/generate_command.hpp"
 #include "apps/localize_command.hpp"
@@ -12,7 +13,8 @@ namespace sketchloc {
 
 // One per <name>_command.cpp, in the order of --help.
 
-inline constexpr auto kCommands = std::to_array<AddCommand>(
-    {add_localize_command, add_evaluate_command, add_generate_command, add_convert_command});
+inline constexpr auto kCommands =
+    std::to_array<AddCommand>({add_demo_command, add_localize_command, add_evaluate_command,
+                               add_generate_command, add_convert_command});
 
 }  // namespace sketchloc
