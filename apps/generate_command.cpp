@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "apps/data_set_files.hpp"
+#include "apps/given_drawing.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/parallel.hpp"
@@ -62,6 +63,8 @@ struct GenerateOptions {
   std::string person = "human";
   fs::path map;
   std::optional<double> cell_m;
+  fs::path drawing;
+  std::vector<fs::path> correspondences;
   std::uint64_t seed = 1;
   std::size_t count = 1;
   fs::path out;
@@ -102,7 +105,12 @@ std::optional<RealMap> read_map(const GenerateOptions& options) {
 class Generator {
  public:
   explicit Generator(const GenerateOptions& options)
-      : options_(options), params_(parameters_of(options)), map_(read_map(options)) {}
+      : options_(options), params_(parameters_of(options)), map_(read_map(options)) {
+    if (!options.drawing.empty()) {
+      given_ = read_given_drawing(options.drawing, options.correspondences,
+                                  building_of(options.seed).map);
+    }
+  }
 
   DataSet make(std::uint64_t seed) const {
     throw_if_interrupted();
@@ -110,23 +118,41 @@ class Generator {
     if (!map_) {
       return generate_data_set(params, seed);
     }
-    Rng rng = make_rng(seed);
-    const Building building =
-        building_from_map(map_->occupied, map_->cell_m, rng, params_.map_reading);
-    std::optional<DataSet> data_set = generate_data_set(building, params, seed);
+    const Building building = building_of(seed);
+    std::optional<DataSet> data_set =
+        given_ ? generate_data_set(building, given_->drawing, params, seed)
+               : generate_data_set(building, params, seed);
     if (!data_set) {
       throw std::runtime_error(options_.map.string() +
                                ": the robot cannot drive from place to place in this map; check "
                                "--cell-m, or give a smaller --drive.robot_radius_m");
     }
+    if (given_) {
+      data_set->reference =
+          with_support(std::move(data_set->reference), given_->fit, data_set->world_from_robot);
+    }
     return *std::move(data_set);
   }
 
+  void write(const fs::path& folder, std::uint64_t seed) const {
+    const DataSet data_set = make(seed);
+    write_data_set(folder, data_set, description(seed));
+    if (given_) {
+      write_atomically(folder / "reference.yaml", to_yaml(support_of(data_set, given_->fit)));
+    }
+  }
+
   RunDescription description(std::uint64_t seed) const {
-    RunDescription made_by{.command = "generate",
-                           .seed = seed,
-                           .inputs = {{"person", options_.person}},
-                           .parameters = to_config(params_)};
+    RunDescription made_by{
+        .command = "generate", .seed = seed, .inputs = {}, .parameters = to_config(params_)};
+    if (given_) {
+      made_by.inputs.emplace_back("drawing", options_.drawing.string());
+      for (const fs::path& csv : options_.correspondences) {
+        made_by.inputs.emplace_back("correspondences", csv.string());
+      }
+    } else {
+      made_by.inputs.emplace_back("person", options_.person);
+    }
     if (map_) {
       made_by.inputs.emplace_back("map", options_.map.string());
       made_by.inputs.emplace_back("cell-m", to_config(map_->cell_m).text);
@@ -138,7 +164,7 @@ class Generator {
 
  private:
   DataSetParams data_set_params() const {
-    const bool drawn = kPersonKinds.at(options_.person) != PersonKind::None;
+    const bool drawn = !given_ && kPersonKinds.at(options_.person) != PersonKind::None;
     return {.building = kBuildingKinds.at(options_.kind),
             .person = drawn ? std::optional(params_.person) : std::nullopt,
             .drive = params_.drive,
@@ -146,9 +172,15 @@ class Generator {
             .odometry = params_.odometry};
   }
 
+  Building building_of(std::uint64_t seed) const {
+    Rng rng = make_rng(seed);
+    return building_from_map(map_->occupied, map_->cell_m, rng, params_.map_reading);
+  }
+
   const GenerateOptions& options_;
   GenerateParams params_;
   std::optional<RealMap> map_;
+  std::optional<GivenDrawing> given_;
 };
 
 /// A single data set lies in the folder itself, several in folders named by their seeds.
@@ -163,7 +195,7 @@ void generate_files(const GenerateOptions& options) {
     const std::uint64_t seed = options.seed + index;
     const fs::path folder = options.count == 1 ? out / "" : out / ("seed_" + std::to_string(seed));
     fs::create_directories(folder);
-    write_data_set(folder, generator.make(seed), generator.description(seed));
+    generator.write(folder, seed);
   };
   work_in_parallel(options.count, options.jobs, generate_one,
                    [&](std::size_t done) { progress.update(done); });
@@ -199,16 +231,37 @@ void add_algorithm_options(CLI::App& command, GenerateOptions& options) {
          "true map)")
       ->check(CLI::IsMember(&kPersonKinds))
       ->capture_default_str();
-  option("--map", options.map, "A real building's map instead: picture or map_server YAML")
-      ->check(CLI::ExistingFile)
-      ->type_name("FILE");
-  option("--cell-m", options.cell_m, "Side of a pixel of --map in metres")
-      ->check(CLI::PositiveNumber);
   option("--seed", options.seed, "Of the first data set; the next ones count on")
       ->capture_default_str();
   option("--count", options.count, "Data sets to make")
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
+}
+
+/// A real building, and maybe somebody's drawing of it.
+void add_map_options(CLI::App& command, GenerateOptions& options) {
+  const auto option = [&](const std::string& flag, auto& value, const std::string& help) {
+    return command.add_option(flag, value, help)->group(kAlgorithmGroup);
+  };
+  CLI::Option* map =
+      option("--map", options.map, "A real building's map instead: picture or map_server YAML")
+          ->check(CLI::ExistingFile)
+          ->type_name("FILE");
+  option("--cell-m", options.cell_m, "Side of a pixel of --map in metres")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* drawing = option("--drawing", options.drawing,
+                                "Somebody's drawing of --map instead of a simulated person's")
+                             ->check(CLI::ExistingFile)
+                             ->needs(map)
+                             ->type_name("FILE");
+  CLI::Option* correspondences =
+      option("--correspondences", options.correspondences,
+             "Places found in --drawing and in the picture of --map; several files count together")
+          ->check(CLI::ExistingFile)
+          ->allow_extra_args(false)
+          ->needs(drawing)
+          ->type_name("PAIRS.csv");
+  drawing->needs(correspondences)->excludes(command.get_option("--person"));
 }
 
 void add_output_options(CLI::App& command, GenerateOptions& options) {
@@ -233,6 +286,7 @@ void add_generate_command(CLI::App& program) {
       "generate", "Simulate buildings, people who draw them, and robots that drive through them.");
   const auto options = std::make_shared<GenerateOptions>();
   add_algorithm_options(*command, *options);
+  add_map_options(*command, *options);
   add_parameter_options(*command, to_config(GenerateParams{}), options->parameters);
   add_output_options(*command, *options);
   command->callback(

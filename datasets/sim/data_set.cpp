@@ -1,6 +1,7 @@
 #include "datasets/sim/data_set.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 namespace sketchloc {
 namespace {
@@ -67,12 +68,17 @@ void validate(const DataSetParams& params) {
 std::optional<DataSet> generate_data_set(const Building& building, const DataSetParams& params,
                                          std::uint64_t seed) {
   validate(params);
+  return generate_data_set(building, make_drawing(building, params, seed), params, seed);
+}
+
+std::optional<DataSet> generate_data_set(const Building& building, Drawing drawing,
+                                         const DataSetParams& params, std::uint64_t seed) {
+  validate(params);
   Rng drive_rng = make_rng(seed, kDrive);
   Drive drive = drive_through(building, params.drive, drive_rng);
   if (drive.status != Drive::Status::Driven) {
     return std::nullopt;
   }
-  Drawing drawing = make_drawing(building, params, seed);
   Run run = measure(building, drive.world_from_robot, params, seed);
   Reference reference = true_reference(drawing, drive.world_from_robot);
   return DataSet{.building = building,

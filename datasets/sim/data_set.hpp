@@ -41,4 +41,8 @@ DataSet generate_data_set(const DataSetParams& params, std::uint64_t seed);
 std::optional<DataSet> generate_data_set(const Building& building, const DataSetParams& params,
                                          std::uint64_t seed);
 
+/// The same with a drawing that somebody made of that building; params.person is not used.
+std::optional<DataSet> generate_data_set(const Building& building, Drawing drawing,
+                                         const DataSetParams& params, std::uint64_t seed);
+
 }  // namespace sketchloc

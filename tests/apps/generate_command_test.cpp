@@ -13,6 +13,8 @@
 #include "datasets/io/reference_io.hpp"
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/sketch_io.hpp"
+#include "datasets/io/trajectory_io.hpp"
+#include "tests/support/matchers.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/shared_data.hpp"
 
@@ -90,6 +92,68 @@ TEST(GenerateEndToEnd, DrivesThroughAMapOfARealBuilding) {
       generate({"--out", folder / "third", "--map", folder / "first" / "drawing.png"});
   EXPECT_EQ(no_scale.exit_code, 2);
   EXPECT_THAT(no_scale.err, HasSubstr("--cell-m"));
+}
+
+/// A hall of 12 m x 8 m as map and, at half the size, as drawing, with the places in both.
+void write_hall(const fs::path& folder) {
+  const auto write_pgm = [&](const char* name, int width, int height) {
+    std::ofstream file(folder / name);
+    file << "P2 " << width << " " << height << " 255\n";
+    for (int row = 0; row < height; ++row) {
+      for (int column = 0; column < width; ++column) {
+        const bool free = row >= height / 10 && row < height - height / 10 &&
+                          column >= width / 10 && column < width - width / 10;
+        file << (free ? "255 " : "0 ");
+      }
+    }
+  };
+  write_pgm("map.pgm", 240, 160);
+  write_pgm("drawing.pgm", 120, 80);
+  std::ofstream pairs(folder / "pairs.csv");
+  pairs << "match,drawing,row,column\n"
+        << "0,sketch,10,14\n0,model,20.5,28.5\n1,sketch,10,104\n1,model,20.5,208.5\n"
+        << "2,sketch,68,104\n2,model,136.5,208.5\n3,sketch,68,14\n3,model,136.5,28.5\n";
+}
+
+TEST(GenerateEndToEnd, DrivesThroughAMapThatSomebodyDrew) {
+  const testing::TemporaryDirectory folder;
+  write_hall(folder / "");
+  const CommandResult result = generate({"--map", folder / "map.pgm", "--cell-m", "0.05",
+                                         "--drawing", folder / "drawing.pgm", "--correspondences",
+                                         folder / "pairs.csv", "--out", folder / "set"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const Sketch drawing = read_sketch(folder / "set" / "drawing.png");
+  EXPECT_EQ(drawing.occupied, read_sketch(folder / "drawing.pgm").occupied);
+  const Reference reference = read_reference(folder / "set" / "reference.csv", 80);
+  const MetricTrajectory world_from_robot = read_tum(folder / "set" / "truth.tum");
+  ASSERT_EQ(reference.poses.size(), world_from_robot.size());
+  bool any_scored = false;
+  for (std::size_t i = 0; i < reference.poses.size(); ++i) {
+    const Se2& truth = world_from_robot[i].pose;  // 10 px of the drawing per metre
+    EXPECT_THAT(reference.poses[i].sketch_from_robot,
+                testing::IsNear(Sim2::from_xy_yaw_scale(10 * truth.x_m(), 10 * truth.y_m(),
+                                                        truth.yaw_rad(), 10),
+                                1e-4));
+    any_scored = any_scored || reference.poses[i].scored;
+  }
+  EXPECT_TRUE(any_scored);
+  EXPECT_TRUE(fs::exists(folder / "set" / "reference.yaml"));
+}
+
+TEST(GenerateEndToEnd, NeedsPlacesForAGivenDrawing) {
+  const testing::TemporaryDirectory folder;
+  write_hall(folder / "");
+  const CommandResult no_pairs =
+      generate({"--map", folder / "map.pgm", "--cell-m", "0.05", "--drawing",
+                folder / "drawing.pgm", "--out", folder / "set"});
+  EXPECT_EQ(no_pairs.exit_code, 2);
+  EXPECT_THAT(no_pairs.err, HasSubstr("--correspondences"));
+  std::ofstream(folder / "one.csv") << "match,drawing,row,column\n0,sketch,9,9\n0,model,18,18\n";
+  const CommandResult one_pair = generate({"--map", folder / "map.pgm", "--cell-m", "0.05",
+                                           "--drawing", folder / "drawing.pgm", "--correspondences",
+                                           folder / "one.csv", "--out", folder / "set"});
+  EXPECT_EQ(one_pair.exit_code, 1);
+  EXPECT_THAT(one_pair.err, HasSubstr("at least three"));
 }
 
 TEST(GenerateEndToEnd, PrintsStatisticsInsteadOfWriting) {

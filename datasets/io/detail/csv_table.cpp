@@ -1,6 +1,7 @@
 #include "datasets/io/detail/csv_table.hpp"
 
 #include <algorithm>
+#include <sstream>
 
 #include "datasets/io/detail/line_reader.hpp"
 #include "motion/check.hpp"
@@ -77,12 +78,30 @@ std::size_t CsvRow::index(std::string_view column) const {
   return static_cast<std::size_t>(*number);
 }
 
-bool CsvRow::flag(std::string_view column) const {
-  const std::string_view flag = text(column);
-  if (flag != "0" && flag != "1") {
-    fail_expected(*place_, column, "0 or 1", in_quotes(flag), kWhatToDo);
+double CsvRow::within(std::string_view column, double low, double high) const {
+  const std::optional<double> value = parse_number(text(column));
+  if (!value || !(*value >= low && *value <= high)) {
+    std::ostringstream range;
+    range << "a number in [" << low << ", " << high << "]";
+    fail_expected(*place_, column, range.str(), in_quotes(text(column)), kWhatToDo);
   }
-  return flag == "1";
+  return *value;
+}
+
+bool CsvRow::flag(std::string_view column) const { return choice(column, {"0", "1"}) == 1; }
+
+std::size_t CsvRow::choice(std::string_view column,
+                           std::initializer_list<std::string_view> words) const {
+  const std::string_view word = text(column);
+  const auto* const found = std::ranges::find(words, word);
+  if (found == words.end()) {
+    std::string expected;
+    for (const std::string_view& candidate : words) {
+      expected += (expected.empty() ? "" : " or ") + std::string(candidate);
+    }
+    fail_expected(*place_, column, expected, in_quotes(word), kWhatToDo);
+  }
+  return static_cast<std::size_t>(found - words.begin());
 }
 
 void for_each_csv_row(const std::filesystem::path& csv,

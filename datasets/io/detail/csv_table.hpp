@@ -19,11 +19,14 @@ class CsvRow {
          const Place& place)
       : header_(header), values_(values), place_(&place) {}
 
-  double number(std::string_view column, double limit) const;         ///< in [-limit, limit]
-  double above_zero(std::string_view column, double limit) const;     ///< in (0, limit]
-  double at_least_zero(std::string_view column, double limit) const;  ///< in [0, limit]
-  std::size_t index(std::string_view column) const;                   ///< an integer from 0 on
-  bool flag(std::string_view column) const;                           ///< 0 or 1
+  double number(std::string_view column, double limit) const;             ///< in [-limit, limit]
+  double above_zero(std::string_view column, double limit) const;         ///< in (0, limit]
+  double at_least_zero(std::string_view column, double limit) const;      ///< in [0, limit]
+  std::size_t index(std::string_view column) const;                       ///< an integer from 0 on
+  double within(std::string_view column, double low, double high) const;  ///< in [low, high]
+  bool flag(std::string_view column) const;                               ///< 0 or 1
+  /// Which of the given words the column holds, by index.
+  std::size_t choice(std::string_view column, std::initializer_list<std::string_view> words) const;
   const Place& place() const { return *place_; }
 
  private:

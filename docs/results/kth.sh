@@ -1,0 +1,83 @@
+#!/usr/bin/env bash
+# Makes the table of kth.md again: data sets from the drawings, five runs on each, one row per
+# drawing. Usage: docs/results/kth.sh WORK_FOLDER   (needs $SKETCHLOC_DATA and jq)
+# SKETCHLOC: the program, by default that of the release build. Runs that are done are not repeated.
+set -euo pipefail
+work=${1:?usage: docs/results/kth.sh WORK_FOLDER}
+here=$(dirname "$(readlink -f "$0")")
+sketchloc=${SKETCHLOC:-$here/../../build/release/apps/sketchloc}
+kth=${SKETCHLOC_DATA:?the folder with sketches/kth}/sketches/kth
+seeds=(1 2 3 4 5)
+
+generate() { # NAME DRAWING SEED CORRESPONDENCES...
+  local name=$1 drawing=$2 seed=$3 pairs=()
+  shift 3
+  for csv in "$@"; do pairs+=(--correspondences "$csv"); done
+  [ -d "$work/$name" ] || "$sketchloc" generate --quiet --map "$kth/model.png" --cell-m 0.05 \
+    --drawing "$drawing" "${pairs[@]}" --seed "$seed" --out "$work/$name" >/dev/null
+}
+
+localize() { # SET DRAWING METHOD SEED
+  local out=$work/runs/$3/$1/seed_$4
+  [ -d "$out" ] || "$sketchloc" localize --quiet --map "$2" --log "$work/both/$1/log.jsonl" \
+    --reference "$work/both/$1/reference.csv" --start-from-reference --method "$3" --seed "$4" \
+    --out "$out" >/dev/null
+}
+
+# RMS distance of the references that each annotator's places give alone, local metres.
+disagreement() { # SET
+  paste -d, "$work/a/$1/reference.csv" "$work/b/$1/reference.csv" "$work/both/$1/reference.csv" |
+    awk -F, 'NR > 1 && $37 && $38 { n++; s += (($3 - $16) ^ 2 + ($4 - $17) ^ 2) / $33 ^ 2 }
+             END { printf "%.2f", n ? sqrt(s / n) : 0 }'
+}
+
+value() { awk -v key="$2:" '$1 == key { print $2 }' "$work/both/$1/reference.yaml"; }
+
+# Means over the seeds: set, method -> within 1 m, within 2 m, within 2 sigma, median m, heading, lost
+means() {
+  jq --raw-output --slurp '[([.[].share_within_1_m] | add / length * 100),
+      ([.[].share_within_2_m] | add / length * 100),
+      ([.[].share_within_reference_2_sigma] | add / length * 100),
+      ([.[].translation_error_m.median] | add / length),
+      ([.[].heading_error_deg.median] | add / length),
+      ([.[] | if .lost_at_end then 1 else 0 end] | add)] | @tsv' \
+    "$work/runs/$2/$1"/seed_*/metrics.json
+}
+
+row() { # SET
+  printf '%s\t%s\t%s\t%s\t%s\t%s\t%s\t%s\n' "$1" "$(value "$1" map)" "$(value "$1" left_out_m)" \
+    "$(disagreement "$1")" "$(value "$1" scored_share)" "$(value "$1" scored_in_free_space_share)" \
+    "$(means "$1" mcl)" "$(means "$1" odometry | cut -f 2,4)"
+}
+
+mkdir -p "$work"
+sets=()
+for drawing in "$kth"/[0-9][0-9].png; do
+  set=$(basename "$drawing" .png)
+  sets+=("$set")
+  a=$kth/gt_a/gt_$set.csv b=$kth/gt_b/gt_$set.csv
+  generate "both/$set" "$drawing" "$((10#$set + 1))" "$a" "$b"
+  generate "a/$set" "$drawing" "$((10#$set + 1))" "$a" || echo "kth: $set: not from a alone" >&2
+  generate "b/$set" "$drawing" "$((10#$set + 1))" "$b" || echo "kth: $set: not from b alone" >&2
+  for seed in "${seeds[@]}"; do localize "$set" "$drawing" mcl "$seed"; done
+  localize "$set" "$drawing" odometry 1
+  echo "kth: $set done" >&2
+done
+
+for set in "${sets[@]}"; do row "$set"; done | awk -F '\t' '
+  BEGIN {
+    print "| drawing | fit | left out, m | a - b, m | scored | in free | within 1 m | within 2 m | within 2 sigma | median, m | heading, deg | lost at end | odometry within 2 m | odometry median, m |"
+    print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
+  }
+  { printf "| %s | %s | %.2f | %s | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.2f | %.1f | %d of 5 | %.0f %% | %.2f |\n",
+           $1, $2, $3, $4, 100 * $5, 100 * $6, $7, $8, $9, $10, $11, $12, $13, $14
+    for (i = 3; i <= 14; i++) { sum[i] += $i; square[i] += $i * $i } }
+  # 95 % interval of the mean over drawings; 2.11: Student, 17 degrees of freedom.
+  function mean(i) { return sum[i] / NR }
+  function half(i) { return 2.11 * sqrt((square[i] - sum[i] ^ 2 / NR) / (NR - 1) / NR) }
+  END {
+    printf "| mean | | %.2f | %.2f | %.0f %% | %.0f %% | %.0f +- %.0f %% | %.0f +- %.0f %% | %.0f +- %.0f %% | %.2f +- %.2f | %.1f +- %.1f | %d of %d | %.0f +- %.0f %% | %.2f +- %.2f |\n",
+           mean(3), mean(4), 100 * mean(5), 100 * mean(6), mean(7), half(7), mean(8), half(8),
+           mean(9), half(9), mean(10), half(10), mean(11), half(11), sum[12], 5 * NR,
+           mean(13), half(13), mean(14), half(14)
+  }'
