@@ -1,6 +1,7 @@
 #include "registration/ray_caster.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -20,7 +21,7 @@ namespace sketchloc::detail {
 
 /// What a cast needs, in plain values.
 struct CastRequest {
-  const std::uint32_t* free_squares;
+  const std::uint8_t* free_squares;  ///< four planes, one per quadrant, and three bytes more
   std::int32_t width;
   std::int32_t height;
   float origin_x;
@@ -76,86 +77,136 @@ HWY_INLINE V cell_after(const Axis<V>& axis, V distance) {
   return hn::Floor(hn::Add(axis.origin, hn::Mul(distance, axis.direction)));
 }
 
-/// The ranges of one vector of rays. Each turn of the loop leaves the free square of the current
-/// cell through exactly one of its sides, so no stroke is ever jumped, not even across a corner.
-template <class D, class V = hn::Vec<D>>
-HWY_INLINE V cast_rays(D d, const CastRequest& request, V heading_rad) {
-  const hn::RebindToSigned<D> di;
-  const hn::RebindToUnsigned<D> du;
-  const V zero = hn::Zero(d);
-  const V one = hn::Set(d, 1.0F);
-  const V max_range = hn::Set(d, request.max_range);
-  const auto width = hn::Set(di, request.width);
-  const auto byte = hn::Set(di, 0xFF);
-
-  const auto unit = detail::HWY_NAMESPACE::unit_vector(d, heading_rad);
-  const Axis<V> x = make_axis(d, request.origin_x, unit.cosine, request.width);
-  const Axis<V> y = make_axis(d, request.origin_y, unit.sine, request.height);
-  const V quadrant = hn::Add(x.behind, hn::Add(y.behind, y.behind));
-  const auto shift = hn::BitCast(du, hn::ShiftLeft<3>(hn::ConvertTo(di, quadrant)));
-
-  // Enter the grid (at distance 0 where the origin is inside).
-  const V first_x = hn::IfThenElseZero(hn::Gt(x.behind, zero), x.last);
-  const V first_y = hn::IfThenElseZero(hn::Gt(y.behind, zero), y.last);
-  const V enter_x = distance_through(x, first_x, zero);
-  const V enter_y = distance_through(y, first_y, zero);
-  V distance = hn::Max(zero, hn::Max(enter_x, enter_y));
-  const V leave = hn::Min(distance_through(x, first_x, hn::Add(x.last, one)),
-                          distance_through(y, first_y, hn::Add(y.last, one)));
-  V column = hn::Min(hn::Max(cell_after(x, distance), zero), x.last);
-  V row = hn::Min(hn::Max(cell_after(y, distance), zero), y.last);
-
-  V range = max_range;
-  auto travelling = hn::And(hn::Lt(distance, leave), hn::Lt(distance, max_range));
-  while (!hn::AllFalse(d, travelling)) {
-    const auto cell = hn::Add(hn::Mul(hn::ConvertTo(di, row), width), hn::ConvertTo(di, column));
-    const auto squares = hn::GatherIndex(du, request.free_squares, cell);
-    const V side = hn::ConvertTo(d, hn::And(hn::BitCast(di, hn::Shr(squares, shift)), byte));
-
-    const auto hit = hn::And(travelling, hn::Eq(side, zero));
-    range = hn::IfThenElse(hit, distance, range);
-    travelling = hn::AndNot(hit, travelling);
-
-    const V through_x = distance_through(x, column, side);
-    const V through_y = distance_through(y, row, side);
-    const auto leaves_by_x = hn::Le(through_x, through_y);
-    distance = hn::Min(through_x, through_y);
-
-    // Along the side that is left the next cell is known; the other coordinate stays in the square.
-    const V beyond_column = hn::Add(column, hn::Mul(x.sign, side));
-    const V beyond_row = hn::Add(row, hn::Mul(y.sign, side));
-    const V last_column = hn::Sub(beyond_column, x.sign);
-    const V last_row = hn::Sub(beyond_row, y.sign);
-    const V within_column = hn::Min(hn::Max(cell_after(x, distance), hn::Min(column, last_column)),
-                                    hn::Max(column, last_column));
-    const V within_row =
-        hn::Min(hn::Max(cell_after(y, distance), hn::Min(row, last_row)), hn::Max(row, last_row));
-    const V next_column = hn::IfThenElse(leaves_by_x, beyond_column, within_column);
-    const V next_row = hn::IfThenElse(leaves_by_x, within_row, beyond_row);
-
-    const auto inside = hn::And(hn::And(hn::Ge(next_column, zero), hn::Le(next_column, x.last)),
-                                hn::And(hn::Ge(next_row, zero), hn::Le(next_row, y.last)));
-    travelling = hn::And(travelling, hn::And(inside, hn::Lt(distance, max_range)));
-    column = hn::IfThenElse(travelling, next_column, column);
-    row = hn::IfThenElse(travelling, next_row, row);
-  }
-  return range;
+/// Bytes at offsets, one per lane.
+template <class DI, class VI = hn::Vec<DI>>
+HWY_INLINE VI gather_bytes(DI di, const std::uint8_t* bytes, VI offset) {
+#if HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+  // Reads three bytes too many, which are there.
+  const auto* words = reinterpret_cast<const std::int32_t*>(bytes);
+  return hn::And(hn::GatherOffset(di, words, offset), hn::Set(di, 0xFF));
+#else
+  HWY_ALIGN std::array<std::int32_t, hn::MaxLanes(di)> lanes;
+  hn::Store(offset, di, lanes.data());
+  std::ranges::transform(lanes, lanes.begin(), [bytes](std::int32_t at) { return bytes[at]; });
+  return hn::Load(di, lanes.data());
+#endif
 }
 
+/// One vector of rays on their way.
+template <class D>
+class Rays {
+ public:
+  using V = hn::Vec<D>;
+  using DI = hn::RebindToSigned<D>;
+
+  HWY_INLINE void start(const CastRequest& request, V heading_rad) {
+    const D d;
+    const V zero = hn::Zero(d);
+    const auto unit = detail::HWY_NAMESPACE::unit_vector(d, heading_rad);
+    x_ = make_axis(d, request.origin_x, unit.cosine, request.width);
+    y_ = make_axis(d, request.origin_y, unit.sine, request.height);
+    const V quadrant = hn::Add(x_.behind, hn::Add(y_.behind, y_.behind));
+    plane_ = hn::Mul(hn::ConvertTo(DI(), quadrant), hn::Set(DI(), request.width * request.height));
+    range_ = hn::Set(d, request.max_range);
+
+    // Enter the grid (at distance 0 where the origin is inside).
+    const V first_x = hn::IfThenElseZero(hn::Gt(x_.behind, zero), x_.last);
+    const V first_y = hn::IfThenElseZero(hn::Gt(y_.behind, zero), y_.last);
+    const V enter =
+        hn::Max(distance_through(x_, first_x, zero), distance_through(y_, first_y, zero));
+    const V one = hn::Set(d, 1.0F);
+    const V leave = hn::Min(distance_through(x_, first_x, hn::Add(x_.last, one)),
+                            distance_through(y_, first_y, hn::Add(y_.last, one)));
+    distance_ = hn::Max(zero, enter);
+    column_ = hn::Min(hn::Max(cell_after(x_, distance_), zero), x_.last);
+    row_ = hn::Min(hn::Max(cell_after(y_, distance_), zero), y_.last);
+    travelling_ = hn::And(hn::Lt(distance_, leave), hn::Lt(distance_, range_));
+  }
+
+  HWY_INLINE bool arrived() const { return hn::AllFalse(D(), travelling_); }
+  HWY_INLINE V range() const { return range_; }
+
+  /// Leaves the free square of the current cell through exactly one of its sides, so that no stroke
+  /// is ever jumped, not even across a corner.
+  HWY_INLINE void step(const CastRequest& request) {
+    const D d;
+    const V zero = hn::Zero(d);
+    const auto cell = hn::Add(hn::Mul(hn::ConvertTo(DI(), row_), hn::Set(DI(), request.width)),
+                              hn::ConvertTo(DI(), column_));
+    const V side =
+        hn::ConvertTo(d, gather_bytes(DI(), request.free_squares, hn::Add(plane_, cell)));
+    const auto hit = hn::And(travelling_, hn::Eq(side, zero));
+    range_ = hn::IfThenElse(hit, distance_, range_);
+    travelling_ = hn::AndNot(hit, travelling_);
+
+    const V through_x = distance_through(x_, column_, side);
+    const V through_y = distance_through(y_, row_, side);
+    const auto leaves_by_x = hn::Le(through_x, through_y);
+    distance_ = hn::Min(through_x, through_y);
+
+    // Along the side that is left the next cell is known; the other coordinate stays in the square.
+    const V beyond_column = hn::Add(column_, hn::Mul(x_.sign, side));
+    const V beyond_row = hn::Add(row_, hn::Mul(y_.sign, side));
+    const V next_column =
+        hn::IfThenElse(leaves_by_x, beyond_column, within(x_, column_, beyond_column));
+    const V next_row = hn::IfThenElse(leaves_by_x, within(y_, row_, beyond_row), beyond_row);
+
+    const auto in_x = hn::And(hn::Ge(next_column, zero), hn::Le(next_column, x_.last));
+    const auto in_y = hn::And(hn::Ge(next_row, zero), hn::Le(next_row, y_.last));
+    const auto in_reach = hn::Lt(distance_, hn::Set(d, request.max_range));
+    travelling_ = hn::And(hn::And(travelling_, in_reach), hn::And(in_x, in_y));
+    column_ = hn::IfThenElse(travelling_, next_column, column_);
+    row_ = hn::IfThenElse(travelling_, next_row, row_);
+  }
+
+ private:
+  /// The cell after the current distance, kept between `cell` and the last one before `beyond`.
+  HWY_INLINE V within(const Axis<V>& axis, V cell, V beyond) const {
+    const V last = hn::Sub(beyond, axis.sign);
+    return hn::Min(hn::Max(cell_after(axis, distance_), hn::Min(cell, last)), hn::Max(cell, last));
+  }
+
+  Axis<V> x_;
+  Axis<V> y_;
+  hn::Vec<DI> plane_;  ///< where the squares of this quadrant of directions begin
+  V column_;
+  V row_;
+  V distance_;
+  V range_;
+  hn::Mask<D> travelling_;
+};
+
+/// Casts several vectors at a time, whose look-ups do not wait for each other.
 void cast_all(const CastRequest& request, const float* heading_rad, std::size_t count,
               float* ranges) {
-  const hn::ScalableTag<float> d;
-  const std::size_t lanes = hn::Lanes(d);
-  std::size_t i = 0;
-  for (; i + lanes <= count; i += lanes) {
-    hn::StoreU(cast_rays(d, request, hn::LoadU(d, heading_rad + i)), d, ranges + i);
-  }
-  if (i < count) {
-    HWY_ALIGN float buffer[hn::MaxLanes(d)];
-    std::fill(std::copy(heading_rad + i, heading_rad + count, buffer), buffer + lanes,
-              heading_rad[i]);
-    hn::Store(cast_rays(d, request, hn::Load(d, buffer)), d, buffer);
-    std::copy(buffer, buffer + (count - i), ranges + i);
+  using D = hn::ScalableTag<float>;
+  constexpr std::size_t kLanes = hn::MaxLanes(D());
+  constexpr std::size_t kVectors = 4;
+  constexpr std::size_t kRays = kLanes * kVectors;
+  HWY_ALIGN std::array<float, kRays> buffer{};
+  std::array<Rays<D>, kVectors> rays;
+  for (std::size_t from = 0; from < count; from += kRays) {
+    const std::size_t here = std::min(kRays, count - from);
+    const std::size_t vectors = (here + kLanes - 1) / kLanes;
+    std::copy_n(heading_rad + from, here, buffer.begin());
+    std::fill(buffer.begin() + static_cast<std::ptrdiff_t>(here), buffer.end(), heading_rad[from]);
+    for (std::size_t v = 0; v < vectors; ++v) {
+      rays[v].start(request, hn::Load(D(), buffer.data() + v * kLanes));
+    }
+    bool travelling = true;
+    while (travelling) {
+      travelling = false;
+      for (std::size_t v = 0; v < vectors; ++v) {
+        if (!rays[v].arrived()) {
+          rays[v].step(request);
+          travelling = true;
+        }
+      }
+    }
+    for (std::size_t v = 0; v < vectors; ++v) {
+      hn::Store(rays[v].range(), D(), buffer.data() + v * kLanes);
+    }
+    std::copy_n(buffer.begin(), here, ranges + from);
   }
 }
 
@@ -169,18 +220,17 @@ namespace {
 
 constexpr int kLongestSide = 255;
 
-/// Writes one quadrant's byte of every cell: the free square of a cell is one larger than the
-/// smallest of its three neighbours in that quadrant. Outside the grid all is free.
+/// Fills one quadrant's plane: the free square of a cell is one larger than the smallest of its
+/// three neighbours in that quadrant. Outside the grid all is free.
 void fill_quadrant(const Grid<std::uint8_t>& occupied, bool down_x, bool down_y,
-                   Grid<std::uint32_t>& squares) {
+                   std::uint8_t* plane) {
   const int width = occupied.width();
   const int height = occupied.height();
-  const int shift = 8 * (static_cast<int>(down_x) + 2 * static_cast<int>(down_y));
   std::vector<int> previous(static_cast<std::size_t>(width) + 1, kLongestSide);
   for (int j = 0; j < height; ++j) {
     const int row = down_y ? j : height - 1 - j;
     const std::span<const std::uint8_t> cells = occupied.row(row);
-    const std::span<std::uint32_t> sides = squares.row(row);
+    std::uint8_t* sides = plane + static_cast<std::ptrdiff_t>(row) * width;
     int beside = kLongestSide;    // the neighbour in this row, done before
     int diagonal = kLongestSide;  // the neighbour across the corner, in the previous row
     for (int i = 0; i < width; ++i) {
@@ -191,7 +241,7 @@ void fill_quadrant(const Grid<std::uint8_t>& occupied, bool down_x, bool down_y,
       diagonal = straight;
       previous[column] = side;
       beside = side;
-      sides[column] |= static_cast<std::uint32_t>(side) << shift;
+      sides[column] = static_cast<std::uint8_t>(side);
     }
   }
 }
@@ -199,10 +249,14 @@ void fill_quadrant(const Grid<std::uint8_t>& occupied, bool down_x, bool down_y,
 }  // namespace
 
 RayCaster::RayCaster(const Grid<std::uint8_t>& occupied)
-    : free_squares_(occupied.width(), occupied.height()) {
+    : width_(occupied.width()), height_(occupied.height()) {
+  const std::size_t plane = occupied.cells().size();
+  check(plane < (std::size_t{1} << 29), "a grid of at most 2^29 cells");
+  free_squares_.resize(4 * plane + 3);
   for (const bool down_y : {false, true}) {
     for (const bool down_x : {false, true}) {
-      fill_quadrant(occupied, down_x, down_y, free_squares_);
+      const std::size_t quadrant = (down_x ? 1U : 0U) + (down_y ? 2U : 0U);
+      fill_quadrant(occupied, down_x, down_y, free_squares_.data() + quadrant * plane);
     }
   }
 }
@@ -213,13 +267,13 @@ void RayCaster::cast(const Eigen::Vector2d& origin, std::span<const float> headi
                      float max_range, std::span<float> ranges) const {
   check(ranges.size() == heading_rad.size(), "one range per heading");
   check(origin.allFinite() && std::isfinite(max_range), "rays start at a finite point");
-  if (free_squares_.empty()) {
+  if (width_ == 0 || height_ == 0) {
     std::fill(ranges.begin(), ranges.end(), max_range);
     return;
   }
-  const detail::CastRequest request{.free_squares = free_squares_.cells().data(),
-                                    .width = width(),
-                                    .height = height(),
+  const detail::CastRequest request{.free_squares = free_squares_.data(),
+                                    .width = width_,
+                                    .height = height_,
                                     .origin_x = static_cast<float>(origin.x()),
                                     .origin_y = static_cast<float>(origin.y()),
                                     .max_range = max_range};

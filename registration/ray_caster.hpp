@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "datasets/grid.hpp"
 
@@ -28,13 +29,15 @@ class RayCaster {
   void cast(const Eigen::Vector2d& origin, std::span<const float> heading_rad, float max_range,
             std::span<float> ranges) const;
 
-  int width() const { return free_squares_.width(); }
-  int height() const { return free_squares_.height(); }
+  int width() const { return width_; }
+  int height() const { return height_; }
 
  private:
-  /// Per cell four bytes, one per quadrant of directions: the side of the largest square of free
-  /// cells that has this cell at its corner and reaches into the quadrant; 0 = occupied.
-  Grid<std::uint32_t> free_squares_;
+  int width_ = 0;
+  int height_ = 0;
+  /// Four planes, one per quadrant of directions: for every cell the side of the largest square of
+  /// free cells that has this cell at its corner and reaches into the quadrant; 0 = occupied.
+  std::vector<std::uint8_t> free_squares_;
 };
 
 }  // namespace sketchloc
