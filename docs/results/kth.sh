@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Makes the table of kth.md again: data sets from the drawings, five runs on each, one row per
-# drawing. Usage: docs/results/kth.sh WORK_FOLDER   (needs $SKETCHLOC_DATA and jq)
-# SKETCHLOC: the program, by default that of the release build. Runs that are done are not repeated.
+# Re-makes the table of docs/results/kth.md: data sets from the drawings, five runs on each, one
+# row per drawing. Needs the development data in $SKETCHLOC_DATA. What is done is not repeated.
+# Usage: docs/results/kth.sh OUT_DIR
 set -euo pipefail
-work=${1:?usage: docs/results/kth.sh WORK_FOLDER}
-here=$(dirname "$(readlink -f "$0")")
-sketchloc=${SKETCHLOC:-$here/../../build/release/apps/sketchloc}
-kth=${SKETCHLOC_DATA:?the folder with sketches/kth}/sketches/kth
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
+sketchloc=${SKETCHLOC:-$here/build/dev/apps/sketchloc}
+kth=${SKETCHLOC_DATA:-$here/../shared/data}/sketches/kth
+work=${1:?usage: kth.sh OUT_DIR}
 seeds=(1 2 3 4 5)
 
 generate() { # NAME DRAWING SEED CORRESPONDENCES...
@@ -33,15 +33,17 @@ disagreement() { # SET
 
 value() { awk -v key="$2:" '$1 == key { print $2 }' "$work/both/$1/reference.yaml"; }
 
-# Means over the seeds: set, method -> within 1 m, within 2 m, within 2 sigma, median m, heading, lost
-means() {
-  jq --raw-output --slurp '[([.[].share_within_1_m] | add / length * 100),
-      ([.[].share_within_2_m] | add / length * 100),
-      ([.[].share_within_reference_2_sigma] | add / length * 100),
-      ([.[].translation_error_m.median] | add / length),
-      ([.[].heading_error_deg.median] | add / length),
-      ([.[] | if .lost_at_end then 1 else 0 end] | add)] | @tsv' \
-    "$work/runs/$2/$1"/seed_*/metrics.json
+# Means over the seeds: within 1 m, 2 m, 2 sigma (%), median m, median heading, runs lost at the end.
+means() { # SET METHOD
+  cat "$work/runs/$2/$1"/seed_*/metrics.json | tr -d ' ",{}' | awk -F: '
+    $1 == "share_within_1_m" { n++; one += $2 }
+    $1 == "share_within_2_m" { two += $2 }
+    $1 == "share_within_reference_2_sigma" { sigma += $2 }
+    $1 == "translation_error_m" || $1 == "heading_error_deg" { part = $1 }
+    $1 == "median" && part != "" { sum[part] += $2; part = "" }
+    $1 == "lost_at_end" { lost += $2 == "true" }
+    END { printf "%f\t%f\t%f\t%f\t%f\t%d", 100 * one / n, 100 * two / n, 100 * sigma / n,
+                 sum["translation_error_m"] / n, sum["heading_error_deg"] / n, lost }'
 }
 
 row() { # SET
