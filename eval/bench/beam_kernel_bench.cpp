@@ -1,5 +1,6 @@
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -99,6 +100,37 @@ void ScoreStrained(benchmark::State& state) {
 BENCHMARK(ScoreStrained)
     ->ArgsProduct({{2000}, {60}, {1000}, {1, 0}})
     ->Unit(benchmark::kMicrosecond);
+
+/// Not a time: how far the kernel's scores are from the traversal's, per beam. Arguments as above.
+void ErrorAgainstTraversal(benchmark::State& state) {
+  const Grid<std::uint8_t> occupied = drawing(state.range(2));
+  const RangeTable table(occupied);
+  const BeamKernel kernel(table, BeamKernelParams{});
+  bench::ParticleWindow window(state.range(0), state.range(2), state.range(3) != 0, kScale);
+  const ParticleSpans particles = window.next();
+  const std::vector<Beam> beams = scan(state.range(1));
+  PreparedBeams prepared;
+  kernel.prepare(beams, prepared);
+  std::vector<float> scores(particles.size());
+  std::vector<double> exact;
+  for (auto _ : state) {
+    kernel.score(particles, prepared, scores);
+    exact = testing::score_by_traversal(occupied, {}, particles, beams, table.max_range_px());
+  }
+  double squares = 0.0;
+  double worst = 0.0;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const double error = (scores[i] - exact[i]) / static_cast<double>(beams.size());
+    squares += error * error;
+    worst = std::max(worst, std::abs(error));
+  }
+  state.counters["rms"] = std::sqrt(squares / static_cast<double>(scores.size()));
+  state.counters["max"] = worst;
+}
+BENCHMARK(ErrorAgainstTraversal)
+    ->ArgsProduct({{10000}, {60}, {1000}, {1, 0}})
+    ->Iterations(1)
+    ->Unit(benchmark::kMillisecond);
 
 void Prepare(benchmark::State& state) {
   const RangeTable table(drawing(100));
