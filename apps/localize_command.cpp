@@ -119,6 +119,10 @@ void require_done(Localization::Status status, const LocalizeOptions& options) {
     case Localization::Status::NoFreeSpace:
       throw std::runtime_error(options.map.string() +
                                ": encloses no free space to start in; give --start");
+    case Localization::Status::NoReturns:
+      throw std::runtime_error(options.log.string() +
+                               ": no scan has a return, so that nothing tells the drawing's scale; "
+                               "give --start with PX_PER_M");
     case Localization::Status::NoStart:
       throw std::invalid_argument("--method odometry needs --start or --start-from-reference");
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "motion/check.hpp"
+#include "motion/validate.hpp"
 #include "registration/ray_caster.hpp"
 
 namespace sketchloc {
@@ -31,7 +32,8 @@ class OdometryFeed {
 
 /// As many particles as one looks at, drawn by weight.
 ParticleSnapshot snapshot_of(const ParticleSet& particles, std::size_t step, std::uint64_t seed) {
-  Rng rng = make_rng(seed, step);
+  constexpr std::uint64_t kPurpose = 1ULL << 32;  // far from the localizer's own streams
+  Rng rng = make_rng(seed, kPurpose, step);
   std::vector<std::uint32_t> shown(std::min(kParticlesShown, particles.size()));
   systematic_parents(particles.log_weight, shown, rng);
   ParticleSnapshot snapshot{.step = step, .particles = {}};
@@ -44,6 +46,16 @@ ParticleSnapshot snapshot_of(const ParticleSet& particles, std::size_t step, std
   return snapshot;
 }
 
+/// The last scan where none has any.
+const Scan& first_scan_with_returns(const Run& run) {
+  for (const RunStep& step : run.steps) {
+    if (!end_points_in_robot(step.scan).empty()) {
+      return step.scan;
+    }
+  }
+  return run.steps.back().scan;
+}
+
 Localization localize_by_filter(const Sketch& sketch, const Run& run, const LocalizationTask& task,
                                 const LocalizationParams& params,
                                 const std::function<void(std::size_t)>& progress) {
@@ -51,8 +63,10 @@ Localization localize_by_filter(const Sketch& sketch, const Run& run, const Loca
   Localizer localizer(sketch, params.localizer);
   if (task.start_sketch_from_robot) {
     localizer.start_at(*task.start_sketch_from_robot);
-  } else if (!localizer.start_anywhere(run.steps.front().scan)) {
-    result.status = Localization::Status::NoFreeSpace;
+  } else if (const GlobalStart start = localizer.start_anywhere(first_scan_with_returns(run));
+             start != GlobalStart::Started) {
+    result.status = start == GlobalStart::NoReturns ? Localization::Status::NoReturns
+                                                    : Localization::Status::NoFreeSpace;
     return result;
   }
   OdometryFeed odometry(task.odometry, params.odometry);
@@ -104,8 +118,8 @@ Localization reckon(const Run& run, const LocalizationTask& task, const Localiza
 }  // namespace
 
 void validate(const LocalizationParams& params) {
-  validate(params.localizer);
-  validate(params.odometry);
+  validate_part("localizer", params.localizer);
+  validate_part("odometry", params.odometry);
 }
 
 Localization localize(const Sketch& sketch, const Run& run, const LocalizationTask& task,

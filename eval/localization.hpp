@@ -46,6 +46,7 @@ struct Localization {
     Done,
     EmptyRun,     ///< no steps
     NoFreeSpace,  ///< the drawing encloses nothing to start in
+    NoReturns,    ///< no scan saw anything, so that nothing tells the drawing's scale
     NoStart       ///< dead reckoning needs a start
   };
   Status status = Status::Done;

@@ -13,8 +13,8 @@ constexpr double kLeastRangeM = 1e-3;  ///< the robot may stand on its own laser
 }  // namespace
 
 void validate(const BeamModelParams& params) {
-  validate(params.selection);
-  validate(params.kernel);
+  validate_part("selection", params.selection);
+  validate_part("kernel", params.kernel);
   require_in_range("exponent", params.exponent, 1e-6, 1.0);
 }
 

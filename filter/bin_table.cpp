@@ -35,8 +35,11 @@ std::uint64_t pose_bin(double x, double y, double heading_rad, double side, doub
       static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / side)) + kOffset);
   const auto row =
       static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(y / side)) + kOffset);
-  const auto sector =
-      static_cast<std::uint64_t>(std::floor((heading_rad + std::numbers::pi) / width_rad));
+  // Floats near -pi come out a little below zero: through a signed number, then wrapped by the
+  // mask.
+  static_assert(2.0 * std::numbers::pi / kMinBinRad < 1023.0);
+  const auto sector = static_cast<std::uint64_t>(
+      static_cast<std::int64_t>(std::floor((heading_rad + std::numbers::pi) / width_rad)));
   return (column & 0x3fffffU) << 32 | (row & 0x3fffffU) << 10 | (sector & 0x3ffU);
 }
 

@@ -6,6 +6,9 @@
 
 namespace sketchloc {
 
+/// Narrowest heading bin that a bin number has room for.
+constexpr double kMinBinRad = 0.01;
+
 /// Weights summed by bin. Clearing is free and nothing is allocated after construction, so that it
 /// serves every step of a filter.
 class BinTable {

@@ -39,7 +39,7 @@ EndPointKernel make_kernel(const Sketch& sketch, double px_per_m,
 }  // namespace
 
 void validate(const EndPointModelParams& params) {
-  validate(params.selection);
+  validate_part("selection", params.selection);
   require_above("sigma_m", params.sigma_m, 0.0);
   require_in_range("floor", params.floor, 1e-6, 1.0);
   require_in_range("exponent", params.exponent, 1e-6, 1.0);

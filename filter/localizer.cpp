@@ -14,6 +14,9 @@ namespace {
 // What an engine is for, so that no two uses share a stream.
 enum Purpose : std::uint64_t { kStart, kPredict, kResample, kCandidates, kInject, kPurposes };
 
+/// A robot that turns sees new directions: the way that is worth a radian to recovery.
+constexpr double kWayPerTurnM = 0.3;
+
 /// Typical of drawings; only where the end points are scored in one without a scale.
 constexpr double kTypicalPxPerM = 20.0;
 
@@ -30,8 +33,9 @@ double exponent_of(const LocalizerParams& params) {
                                                   : params.end_points.exponent;
 }
 
-/// Log of the radius of a circle as large as what the scan saw; GlobalSampler's counterpart.
-double log_visible_radius_m(const Scan& scan) {
+/// Log of the radius of a circle as large as what the scan saw, GlobalSampler's counterpart; none
+/// where it saw nothing.
+std::optional<double> log_visible_radius_m(const Scan& scan) {
   double sum_squares = 0.0;
   int returns = 0;
   for (std::size_t beam = 0; beam < scan.ranges_m.size(); ++beam) {
@@ -41,34 +45,36 @@ double log_visible_radius_m(const Scan& scan) {
       ++returns;
     }
   }
-  return sum_squares > 0.0 ? 0.5 * std::log(sum_squares / returns) : 0.0;
+  return sum_squares > 0.0 ? std::optional(0.5 * std::log(sum_squares / returns)) : std::nullopt;
 }
 
 }  // namespace
 
 void validate(const MotionGate& gate) {
-  require_at_least("gate.way_m", gate.way_m, 0.0);
-  require_at_least("gate.turn_rad", gate.turn_rad, 0.0);
+  require_at_least("way_m", gate.way_m, 0.0);
+  require_at_least("turn_rad", gate.turn_rad, 0.0);
+  require_above("independent_way_m", gate.independent_way_m, 0.0);
+  require_above("independent_turn_rad", gate.independent_turn_rad, 0.0);
 }
 
 void validate(const StartSpread& spread) {
-  require_at_least("start.position_m", spread.position_m, 0.0);
-  require_at_least("start.heading_rad", spread.heading_rad, 0.0);
-  require_at_least("start.log_scale", spread.log_scale, 0.0);
-  require_at_least("start.log_mean_scale", spread.log_mean_scale, 0.0);
-  require_at_least("start.strain", spread.strain, 0.0);
+  require_at_least("position_m", spread.position_m, 0.0);
+  require_at_least("heading_rad", spread.heading_rad, 0.0);
+  require_at_least("log_scale", spread.log_scale, 0.0);
+  require_at_least("log_mean_scale", spread.log_mean_scale, 0.0);
+  require_at_least("strain", spread.strain, 0.0);
 }
 
 void validate(const LocalizerParams& params) {
-  validate(params.predict);
-  validate(params.beams);
-  validate(params.end_points);
-  validate(params.particles);
-  validate(params.modes);
-  validate(params.gate);
-  validate(params.start);
-  validate(params.recovery);
-  validate(params.table);
+  validate_part("predict", params.predict);
+  validate_part("beams", params.beams);
+  validate_part("end_points", params.end_points);
+  validate_part("particles", params.particles);
+  validate_part("modes", params.modes);
+  validate_part("gate", params.gate);
+  validate_part("start", params.start);
+  validate_part("recovery", params.recovery);
+  validate_part("table", params.table);
   require_in_range("resample_below", params.resample_below, 0.0, 1.0);
   require_in_range("jobs", params.jobs, 1, 1024);
 }
@@ -84,6 +90,9 @@ LocalizerParams metric_localizer_params() {
   params.predict = metric_motion();
   params.measurement = Measurement::EndPoints;
   params.modes.radius_m = 1.0;
+  params.particles.max_particles = 10000;  // a similarity less to sample than in a drawing
+  params.gate.independent_way_m = params.gate.way_m;  // what errs is mostly the range noise
+  params.gate.independent_turn_rad = params.gate.turn_rad;
   params.start = {.position_m = 0.3,
                   .heading_rad = 0.1,
                   .log_scale = 0.0,
@@ -113,7 +122,15 @@ Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params)
   report_.estimate.modes.reserve(static_cast<std::size_t>(params.modes.max_modes));
 }
 
+/// What the filter knew about the robot's past.
+void Localizer::forget() {
+  evidence_ = EvidenceMonitor(params_.recovery);
+  last_odom_from_robot_.reset();
+  updated_once_ = false;
+}
+
 void Localizer::start_at(const Sim2& sketch_from_robot) {
+  forget();
   const StartSpread& spread = params_.start;
   particles_.resize(params_.particles.max_particles);
   for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
@@ -141,6 +158,7 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
   report_.time_s = scan.time_s;
   report_.resampled = false;
   report_.injected_share = 0.0;
+  report_.log_likelihood = 0.0;
   if (last_odom_from_robot_) {
     predict_all(odometry_increment(*last_odom_from_robot_, odom_from_robot));
   }
@@ -166,6 +184,14 @@ bool Localizer::gate_opens() const {
          turn_since_update_rad_ >= params_.gate.turn_rad;
 }
 
+/// How much of a scan the last update did not know: scans from nearly the same place err together.
+double Localizer::new_share() const {
+  return updated_once_
+             ? std::min(1.0, way_since_update_m_ / params_.gate.independent_way_m +
+                                 turn_since_update_rad_ / params_.gate.independent_turn_rad)
+             : 1.0;
+}
+
 void Localizer::predict_all(const Se2& robot_from_next) {
   way_since_update_m_ += robot_from_next.translation().norm();
   turn_since_update_rad_ += std::abs(robot_from_next.yaw_rad());
@@ -187,7 +213,7 @@ void Localizer::score(const ParticleSet& particles) {
 
 void Localizer::weigh(std::size_t beams) {
   score(particles_);
-  const double exponent = exponent_of(params_);
+  const double exponent = exponent_of(params_) * new_share();
   double weight_sum = 0.0;
   double score_sum = 0.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -197,7 +223,7 @@ void Localizer::weigh(std::size_t beams) {
     particles_.log_weight[i] += static_cast<float>(exponent * scores_[i]);
   }
   const double per_beam = score_sum / weight_sum / static_cast<double>(beams);
-  evidence_.add(per_beam, way_since_update_m_ + 0.3 * turn_since_update_rad_);
+  evidence_.add(per_beam, way_since_update_m_ + kWayPerTurnM * turn_since_update_rad_);
   report_.log_likelihood = per_beam;
   way_since_update_m_ = 0.0;
   turn_since_update_rad_ = 0.0;
@@ -282,20 +308,25 @@ void Localizer::replace_by_candidates(std::size_t count, Rng& rng) {
   }
 }
 
-bool Localizer::start_anywhere(const Scan& first_scan) {
+GlobalStart Localizer::start_anywhere(const Scan& first_scan) {
   if (anywhere_.empty()) {
-    return false;
+    return GlobalStart::NoFreeSpace;
   }
-  const ScalePrior scale{.log_px_per_m = log_px_per_m_ ? *log_px_per_m_
-                                                       : anywhere_.median_log_visible_radius() -
-                                                             log_visible_radius_m(first_scan),
-                         .sigma = params_.start.log_mean_scale};
+  const std::optional<double> log_radius_m = log_visible_radius_m(first_scan);
+  if (!log_px_per_m_ && !log_radius_m) {
+    return GlobalStart::NoReturns;
+  }
+  forget();
+  const ScalePrior scale{
+      .log_px_per_m =
+          log_px_per_m_ ? *log_px_per_m_ : anywhere_.median_log_visible_radius() - *log_radius_m,
+      .sigma = params_.start.log_mean_scale};
   particles_.resize(params_.particles.max_particles);
   for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, kStart, chunk);
     anywhere_.draw(particles_, range, scale, params_.start.strain, rng);
   });
-  return true;
+  return GlobalStart::Started;
 }
 
 }  // namespace sketchloc

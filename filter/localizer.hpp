@@ -22,16 +22,21 @@
 
 namespace sketchloc {
 
-/// When a scan is worth an update: the same evidence counts once.
+/// When a scan is worth an update, and how much: the same evidence counts once, however often the
+/// robot scans.
 struct MotionGate {
-  double way_m = 0.1;      ///< since the last update, >= 0
-  double turn_rad = 0.35;  ///< or turned by this much, >= 0
+  double way_m = 0.1;                 ///< since the last update, >= 0
+  double turn_rad = 0.35;             ///< or turned by this much, >= 0
+  double independent_way_m = 0.4;     ///< way after which a scan is all new; sooner, in part, > 0
+  double independent_turn_rad = 0.7;  ///< or turned by this much, > 0
 };
 
 template <typename Visitor>
 void visit_fields(MotionGate& gate, Visitor&& visit) {
   visit("way_m", gate.way_m);
   visit("turn_rad", gate.turn_rad);
+  visit("independent_way_m", gate.independent_way_m);
+  visit("independent_turn_rad", gate.independent_turn_rad);
 }
 
 void validate(const MotionGate& gate);
@@ -101,6 +106,13 @@ LocalizerParams metric_localizer_params();
 /// Throws std::invalid_argument naming the component and field, its range and its value.
 void validate(const LocalizerParams& params);
 
+/// Whether the filter could start with nothing known.
+enum class GlobalStart {
+  Started,
+  NoFreeSpace,  ///< the drawing encloses no free space to start in
+  NoReturns     ///< the scan saw nothing, so that it does not tell the scale
+};
+
 /// Monte Carlo localization in a drawing: one step per scan, online. Works in the odometry it is
 /// given: refine wheel odometry first (registration/matched_odometry.hpp).
 class Localizer {
@@ -111,8 +123,9 @@ class Localizer {
   /// Starts at a known pose.
   void start_at(const Sim2& sketch_from_robot);
 
-  /// Starts with nothing known; false where the drawing encloses no free space to start in.
-  bool start_anywhere(const Scan& first_scan);
+  /// Starts with nothing known. The scan, the first one that saw anything, tells the scale; the
+  /// filter is started only if the result says so.
+  GlobalStart start_anywhere(const Scan& first_scan);
 
   /// Takes the next scan with the odometry at its instant. The report is valid until the next call.
   const StepReport& step(const Scan& scan, const Se2& odom_from_robot);
@@ -123,6 +136,7 @@ class Localizer {
   const ParticleSet& particles() const { return particles_; }
 
  private:
+  void forget();
   void predict_all(const Se2& robot_from_next);
   std::size_t observe(const Scan& scan);
   void score(const ParticleSet& particles);
@@ -133,6 +147,7 @@ class Localizer {
   void draw_candidates();
   void replace_by_candidates(std::size_t count, Rng& rng);
   bool gate_opens() const;
+  double new_share() const;
 
   LocalizerParams params_;
   RangeTable table_;

@@ -46,7 +46,7 @@ void for_each_near(const ParticleSet& particles, const Eigen::Vector3f& place, f
 
 void validate(const ModeParams& params) {
   require_above("radius_m", params.radius_m, 0.0);
-  require_in_range("radius_rad", params.radius_rad, 1e-3, std::numbers::pi);
+  require_in_range("radius_rad", params.radius_rad, kMinBinRad, std::numbers::pi);
   require_in_range("max_modes", params.max_modes, 1, 16);
   require_in_range("min_weight", params.min_weight, 0.0, 1.0);
 }

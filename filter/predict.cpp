@@ -11,11 +11,11 @@ namespace {
 
 /// The noise of one step, all 1-sigma, and the shares of the walks that are forgotten.
 struct StepNoise {
-  Eigen::Vector2f way_m;     ///< the increment in the robot frame
-  Eigen::Vector2f across_m;  ///< the increment turned left
+  Eigen::Vector2f way_m;  ///< the increment in the robot frame
+  Eigen::Vector2f along;  ///< its direction; zero where there is no way
   float turn_rad = 0.0F;
-  float along_share = 0.0F;   ///< of the way, along it
-  float across_share = 0.0F;  ///< of the way, across it
+  float along_m = 0.0F;
+  float across_m = 0.0F;
   float slip_m = 0.0F;
   float heading_rad = 0.0F;
   float log_scale = 0.0F;
@@ -32,10 +32,10 @@ StepNoise step_noise(const Se2& robot_from_next, const PredictParams& params) {
   const Eigen::Vector3d sigma = increment_sigma(robot_from_next, params.odometry);
   StepNoise noise;
   noise.way_m = robot_from_next.translation().cast<float>();
-  noise.across_m = {-noise.way_m.y(), noise.way_m.x()};
+  noise.along = noise.way_m.normalized();
   noise.turn_rad = static_cast<float>(robot_from_next.yaw_rad());
-  noise.along_share = static_cast<float>(walk.length_per_m);
-  noise.across_share = static_cast<float>(walk.shear_per_m);
+  noise.along_m = static_cast<float>(walk.length_m * root_way);
+  noise.across_m = static_cast<float>(walk.shear_m * root_way);
   noise.slip_m = static_cast<float>(sigma.x());
   noise.heading_rad = static_cast<float>(std::hypot(sigma.z(), walk.heading_rad * root_way));
   noise.log_scale = static_cast<float>(walk.log_scale * root_way);
@@ -71,8 +71,8 @@ Eigen::Vector2f step_in_sketch(const ParticleSet& particles, std::size_t i,
 }  // namespace
 
 void validate(const DeformationWalk& walk) {
-  require_at_least("length_per_m", walk.length_per_m, 0.0);
-  require_at_least("shear_per_m", walk.shear_per_m, 0.0);
+  require_at_least("length_m", walk.length_m, 0.0);
+  require_at_least("shear_m", walk.shear_m, 0.0);
   require_at_least("heading_rad", walk.heading_rad, 0.0);
   require_at_least("log_scale", walk.log_scale, 0.0);
   require_above("scale_memory_m", walk.scale_memory_m, 0.0);
@@ -82,8 +82,8 @@ void validate(const DeformationWalk& walk) {
 }
 
 void validate(const PredictParams& params) {
-  validate(params.odometry);
-  validate(params.deformation);
+  validate_part("odometry", params.odometry);
+  validate_part("deformation", params.deformation);
 }
 
 PredictParams metric_motion() {
@@ -91,8 +91,8 @@ PredictParams metric_motion() {
                        .slip_m_per_rad = 0.01,
                        .turn_rad_per_m = 0.02,
                        .turn_rad_per_rad = 0.05},
-          .deformation = {.length_per_m = 0.0,
-                          .shear_per_m = 0.0,
+          .deformation = {.length_m = 0.0,
+                          .shear_m = 0.0,
                           .heading_rad = 0.0,
                           .log_scale = 0.0,
                           .log_mean_scale = 0.0,
@@ -105,12 +105,13 @@ void predict(ParticleSet& particles, const ParticleRange& range, const Se2& robo
     return;
   }
   const StepNoise noise = step_noise(robot_from_next, params);
+  const Eigen::Vector2f across(-noise.along.y(), noise.along.x());
   std::normal_distribution<float> normal;  // local to the call, its spare value too
   const auto draw = [&](float sigma) { return sigma > 0.0F ? sigma * normal(rng) : 0.0F; };
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const Eigen::Vector2f slip_m(draw(noise.slip_m), draw(noise.slip_m));
-    const Eigen::Vector2f step_in_robot_m = noise.way_m * (1.0F + draw(noise.along_share)) +
-                                            noise.across_m * draw(noise.across_share) + slip_m;
+    const Eigen::Vector2f step_in_robot_m =
+        noise.way_m + noise.along * draw(noise.along_m) + across * draw(noise.across_m) + slip_m;
     const Eigen::Vector2f step_px = step_in_sketch(particles, i, step_in_robot_m);
     particles.x_px[i] += step_px.x();
     particles.y_px[i] += step_px.y();

@@ -8,12 +8,13 @@
 
 namespace sketchloc {
 
-/// How a drawing departs from the metres driven in it, on top of the odometry's own noise. Walks
-/// are 1-sigma after one metre and grow with the square root of the way. Fitted together on the
-/// Intel and Belgioioso drawings, see docs/results/real.md.
+/// How a drawing departs from the metres driven in it, on top of the odometry's own noise. All are
+/// walks: 1-sigma after one metre, growing with the square root of the way, so that it does not
+/// matter how often the robot scans. Fitted together on the Intel and Belgioioso drawings, see
+/// docs/results/real.md.
 struct DeformationWalk {
-  double length_per_m = 0.3;     ///< error of drawn lengths along the way, >= 0
-  double shear_per_m = 0.2;      ///< the same across the way, >= 0
+  double length_m = 0.22;        ///< walk of the place along the way: drawn lengths, >= 0
+  double shear_m = 0.15;         ///< the same across the way, >= 0
   double heading_rad = 0.05;     ///< walk of the local rotation, >= 0
   double log_scale = 0.08;       ///< walk of the local log scale, >= 0
   double scale_memory_m = 9.0;   ///< way after which the local scale returns to its mean, > 0
@@ -24,8 +25,8 @@ struct DeformationWalk {
 
 template <typename Visitor>
 void visit_fields(DeformationWalk& walk, Visitor&& visit) {
-  visit("length_per_m", walk.length_per_m);
-  visit("shear_per_m", walk.shear_per_m);
+  visit("length_m", walk.length_m);
+  visit("shear_m", walk.shear_m);
   visit("heading_rad", walk.heading_rad);
   visit("log_scale", walk.log_scale);
   visit("scale_memory_m", walk.scale_memory_m);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "filter/bin_table.hpp"
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
 
@@ -41,7 +42,7 @@ void validate(const KldParams& params) {
   require_in_range("error", params.error, 1e-6, 1.0);
   require_above("quantile", params.quantile, 0.0);
   require_above("bin_m", params.bin_m, 0.0);
-  require_in_range("bin_rad", params.bin_rad, 1e-3, std::numbers::pi);
+  require_in_range("bin_rad", params.bin_rad, kMinBinRad, std::numbers::pi);
   require_in_range("min_particles", static_cast<double>(params.min_particles), 1.0, 1e7);
   require_in_range("max_particles", static_cast<double>(params.max_particles),
                    static_cast<double>(params.min_particles), 1e7);

@@ -27,7 +27,7 @@ struct KldParams {
   double bin_m = 0.5;       ///< side of a bin, in local metres, > 0
   double bin_rad = 0.2618;  ///< width of a heading bin, in (0, pi]
   std::size_t min_particles = 4000;
-  std::size_t max_particles = 10000;
+  std::size_t max_particles = 30000;
 };
 
 template <typename Visitor>

@@ -91,8 +91,8 @@ TEST(PredictStatistical, SpreadsAsItsParametersSay) {
   constexpr std::size_t kCount = 20000;
   ParticleSet particles = particles_at(kCount, 0.0F, std::log(10.0F));
   PredictParams params = noise_free();
-  params.deformation = {.length_per_m = 0.4,
-                        .shear_per_m = 0.2,
+  params.deformation = {.length_m = 0.4,
+                        .shear_m = 0.2,
                         .heading_rad = 0.05,
                         .log_scale = 0.1,
                         .scale_memory_m = 1e9,
@@ -108,12 +108,31 @@ TEST(PredictStatistical, SpreadsAsItsParametersSay) {
     EXPECT_NEAR(m.mean, mean, 5.0 * m.mean_error);
     EXPECT_NEAR(m.variance, sigma * sigma, 5.0 * m.variance_error);
   };
-  expect_spread(particles.x_px, 10.0 * way_m, 10.0 * 0.4 * way_m);
-  expect_spread(particles.y_px, 0.0, 10.0 * 0.2 * way_m);
+  expect_spread(particles.x_px, 10.0 * way_m, 10.0 * 0.4 * std::sqrt(way_m));
+  expect_spread(particles.y_px, 0.0, 10.0 * 0.2 * std::sqrt(way_m));
   expect_spread(particles.heading_rad, 0.0, 0.05 * std::sqrt(way_m));
   expect_spread(particles.log_scale, std::log(10.0), 0.1 * std::sqrt(way_m));
   expect_spread(particles.log_mean_scale, std::log(10.0), 0.03 * std::sqrt(way_m));
   expect_spread(particles.diagonal_strain, 0.0, 0.15 * std::sqrt(way_m));
+}
+
+TEST(PredictStatistical, SpreadsAlikeInOneStepOrInMany) {
+  constexpr std::size_t kCount = 20000;
+  PredictParams params = noise_free();
+  params.deformation.shear_m = 0.2;
+  const auto spread_after = [&](int steps) {
+    ParticleSet particles = particles_at(kCount, 0.0F, 0.0F);
+    Rng rng = make_rng(7);
+    for (int step = 0; step < steps; ++step) {
+      predict(particles, {0, kCount}, Se2::from_xy_yaw(0.4 / steps, 0.0, 0.0), params, rng);
+    }
+    return testing::sample_moments(
+        std::vector<double>(particles.y_px.begin(), particles.y_px.end()));
+  };
+  const testing::SampleMoments once = spread_after(1);
+  const testing::SampleMoments often = spread_after(20);
+  EXPECT_NEAR(once.variance, often.variance,
+              5.0 * std::hypot(once.variance_error, often.variance_error));
 }
 
 TEST(PredictParams, RefuseWhatIsOutOfRange) {
