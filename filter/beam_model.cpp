@@ -22,11 +22,12 @@ BeamModel::BeamModel(const RangeTable& table, const BeamModelParams& params)
     : params_((validate(params), params)), kernel_(table, params.kernel) {}
 
 std::size_t BeamModel::observe(const Scan& scan) {
-  select_end_points(ends_in_robot_, scan, params_.selection);
+  select_beams(selected_, scan, params_.selection);
   beams_.clear();
-  for (const Eigen::Vector2d& end : ends_in_robot_) {
+  for (const auto& [end, returned] : selected_) {
     beams_.push_back({.bearing_rad = static_cast<float>(std::atan2(end.y(), end.x())),
-                      .range_m = static_cast<float>(std::max(end.norm(), kLeastRangeM))});
+                      .range_m = static_cast<float>(std::max(end.norm(), kLeastRangeM)),
+                      .returned = returned});
   }
   kernel_.prepare(beams_, prepared_);
   return beams_.size();

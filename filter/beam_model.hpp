@@ -45,7 +45,7 @@ class BeamModel {
  private:
   BeamModelParams params_;
   BeamKernel kernel_;
-  std::vector<Eigen::Vector2d> ends_in_robot_;
+  std::vector<SelectedBeam> selected_;
   std::vector<Beam> beams_;
   PreparedBeams prepared_;
 };

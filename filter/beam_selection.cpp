@@ -12,20 +12,24 @@ void validate(const BeamSelection& selection) {
   require_above("max_range_m", selection.max_range_m, 0.0);
 }
 
-void select_end_points(std::vector<Eigen::Vector2d>& ends_in_robot, const Scan& scan,
-                       const BeamSelection& selection) {
-  ends_in_robot.clear();
+void select_beams(std::vector<SelectedBeam>& selected, const Scan& scan,
+                  const BeamSelection& selection) {
+  selected.clear();
   const auto readings = static_cast<int>(scan.ranges_m.size());
   const int sectors = std::min(selection.beams, readings);
+  const double most_m = std::min(selection.max_range_m, scan.max_range_m);
   for (int sector = 0; sector < sectors; ++sector) {
     const auto middle = static_cast<std::size_t>((2 * sector + 1) * readings / (2 * sectors));
     const double range_m = scan.ranges_m[middle];
-    if (!scan.is_return(middle) || range_m > selection.max_range_m || range_m <= 0.0) {
+    if (!(range_m > 0.0 && range_m >= scan.min_range_m)) {
       continue;
     }
+    const bool returned = scan.is_return(middle) && range_m <= most_m;
     const double angle_rad = scan.angle_rad(middle);
-    ends_in_robot.push_back(scan.robot_from_laser * Eigen::Vector2d(range_m * std::cos(angle_rad),
-                                                                    range_m * std::sin(angle_rad)));
+    const Eigen::Vector2d direction(std::cos(angle_rad), std::sin(angle_rad));
+    selected.push_back(
+        {.end_in_robot = scan.robot_from_laser * ((returned ? range_m : most_m) * direction),
+         .returned = returned});
   }
 }
 

@@ -12,7 +12,7 @@ namespace sketchloc {
 /// Which beams of a scan are scored.
 struct BeamSelection {
   int beams = 60;             ///< spread evenly over the field of view, in [1, 4096]
-  double max_range_m = 20.0;  ///< farther returns are left out, > 0
+  double max_range_m = 20.0;  ///< farther returns only say that it is at least this far, > 0
 };
 
 template <typename Visitor>
@@ -23,10 +23,16 @@ void visit_fields(BeamSelection& selection, Visitor&& visit) {
 
 void validate(const BeamSelection& selection);
 
-/// Refills `ends_in_robot` with the ends of the selected beams; keeps its memory. Each stands for
-/// an equal sector of the field of view and is its middle reading; sectors whose middle did not
-/// return, or from too far, are left out.
-void select_end_points(std::vector<Eigen::Vector2d>& ends_in_robot, const Scan& scan,
-                       const BeamSelection& selection);
+/// One of them.
+struct SelectedBeam {
+  Eigen::Vector2d end_in_robot;  ///< m; without a return where the beam was lost from sight
+  bool returned = true;          ///< false: nothing as near as the end
+};
+
+/// Refills `selected`; keeps its memory. Each beam stands for an equal sector of the field of view
+/// and is its middle reading. Readings that are no range at all (NaN, below the least) are left
+/// out.
+void select_beams(std::vector<SelectedBeam>& selected, const Scan& scan,
+                  const BeamSelection& selection);
 
 }  // namespace sketchloc

@@ -52,10 +52,12 @@ EndPointModel::EndPointModel(const Sketch& sketch, double px_per_m,
 std::size_t EndPointModel::observe(const Scan& scan) {
   x_m_.clear();
   y_m_.clear();
-  select_end_points(ends_in_robot_, scan, params_.selection);
-  for (const Eigen::Vector2d& end : ends_in_robot_) {
-    x_m_.push_back(static_cast<float>(end.x()));
-    y_m_.push_back(static_cast<float>(end.y()));
+  select_beams(selected_, scan, params_.selection);
+  for (const auto& [end, returned] : selected_) {
+    if (returned) {
+      x_m_.push_back(static_cast<float>(end.x()));
+      y_m_.push_back(static_cast<float>(end.y()));
+    }
   }
   return x_m_.size();
 }

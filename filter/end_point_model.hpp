@@ -48,7 +48,7 @@ class EndPointModel {
  private:
   EndPointModelParams params_;
   EndPointKernel kernel_;
-  std::vector<Eigen::Vector2d> ends_in_robot_;
+  std::vector<SelectedBeam> selected_;
   std::vector<float> x_m_;
   std::vector<float> y_m_;
 };
