@@ -28,7 +28,6 @@ fs::path sample(const fs::path& name) {
 
 struct DemoOptions {
   fs::path out = "sketchloc-demo";
-  bool force = false;
 };
 
 void run_demo(const DemoOptions& options) {
@@ -38,7 +37,7 @@ void run_demo(const DemoOptions& options) {
   localize.reference = sample("office/reference.csv");
   localize.start_from_reference = true;
   localize.out = options.out;
-  localize.force = options.force;
+  localize.force = true;  // of its own earlier result; a foreign folder is refused all the same
   localize.title = "A simulated robot in a simulated person's drawing of an office";
   run_localize(localize);
 }
@@ -49,11 +48,10 @@ void add_demo_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "demo", "Localize the robot of the sample that comes with the program.");
   auto options = std::make_shared<DemoOptions>();
-  command->add_option("--out", options->out, "Folder of the results")
+  command->add_option("--out", options->out, "Folder of the results; an earlier one is replaced")
       ->group(kOutputGroup)
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_flag("--force", options->force, "Replace an earlier result")->group(kOutputGroup);
   command->callback([options] { run_demo(*options); });
 }
 
