@@ -26,6 +26,7 @@
 #include "datasets/io/sketch_io.hpp"
 #include "datasets/sim/data_set.hpp"
 #include "datasets/sim/drawing_statistics.hpp"
+#include "datasets/sim/scan_agreement.hpp"
 
 namespace sketchloc {
 namespace {
@@ -205,18 +206,35 @@ void generate_files(const GenerateOptions& options) {
             << out.target().string() << "\n";
 }
 
+/// How the drawing draws the places that it is known for.
+std::vector<DrawnPlace> scored_places(const DataSet& data_set) {
+  std::vector<DrawnPlace> places =
+      drawn_places(data_set.world_from_robot, data_set.drawing.sketch_from_world);
+  std::vector<DrawnPlace> scored;
+  for (const ReferencePose& pose : data_set.reference.poses) {
+    if (pose.scored) {
+      scored.push_back(places.at(pose.step));
+    }
+  }
+  return scored;
+}
+
+MeasuredDrawing measure(const DataSet& data_set) {
+  return {
+      .distortion = measure_drawing(scored_places(data_set)),
+      .agreement = measure_agreement(data_set.drawing.sketch, data_set.run, data_set.reference)};
+}
+
 void print_statistics(const GenerateOptions& options) {
   const Generator generator(options);
-  std::vector<DrawingStatistics> statistics(options.count);
+  std::vector<MeasuredDrawing> measured(options.count);
   Progress progress("measure", options.count);
   const auto measure_one = [&](std::size_t index) {
-    const DataSet data_set = generator.make(options.seed + index);
-    statistics[index] = measure_drawing(
-        drawn_places(data_set.world_from_robot, data_set.drawing.sketch_from_world));
+    measured[index] = measure(generator.make(options.seed + index));
   };
   work_in_parallel(options.count, options.jobs, measure_one,
                    [&](std::size_t done) { progress.update(done); });
-  std::cout << statistics_table(statistics);
+  std::cout << statistics_table(measured);
 }
 
 void add_algorithm_options(CLI::App& command, GenerateOptions& options) {
@@ -271,8 +289,10 @@ void add_output_options(CLI::App& command, GenerateOptions& options) {
   command.add_flag("--force", options.force, "Replace an earlier result in --out")
       ->group(kOutputGroup);
   command
-      .add_flag("--statistics", options.statistics,
-                "Print how the drawings distort the world instead of writing them")
+      .add_flag(
+          "--statistics", options.statistics,
+          "Print how the drawings distort the world and what that makes of the scans, instead of "
+          "writing them")
       ->group(kOutputGroup);
   command.add_option("-j,--jobs", options.jobs, "Threads; 0: one per core")
       ->group(kUsabilityGroup)

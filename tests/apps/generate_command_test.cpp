@@ -161,6 +161,7 @@ TEST(GenerateEndToEnd, PrintsStatisticsInsteadOfWriting) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_THAT(result.out, HasSubstr("| 3 drawings | 5 % | median | 95 % |"));
   EXPECT_THAT(result.out, HasSubstr("| residual change over 10 m, m | "));
+  EXPECT_THAT(result.out, HasSubstr("| beams within 0.3 | 0."));
 }
 
 TEST(GenerateEndToEnd, SaysWhatIsMissingOrOutOfRange) {
