@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "apps/config.hpp"
+#include "apps/evaluate_log.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/program.hpp"
 #include "apps/result_files.hpp"
@@ -30,9 +31,11 @@ namespace fs = std::filesystem;
 struct EvaluateOptions {
   fs::path trajectory;
   fs::path run;
+  fs::path log;
   fs::path map;
   fs::path reference;
   std::vector<fs::path> alternatives;
+  fs::path relations;
   double max_gap_s = 0.01;
   std::vector<double> deltas_m = {1.0, 5.0, 10.0};
   std::vector<std::size_t> deltas_frames = {1};
@@ -40,12 +43,6 @@ struct EvaluateOptions {
   bool json = false;
   fs::path out;
   bool force = false;
-};
-
-/// What an evaluation found, for people and for scripts.
-struct Evaluation {
-  std::string table;
-  std::string json;
 };
 
 std::string summary_row(const std::string& name, const std::optional<ErrorSummary>& summary) {
@@ -132,30 +129,60 @@ Evaluation evaluate_run(const EvaluateOptions& options) {
 }
 
 void check_inputs(const EvaluateOptions& options) {
-  if (options.trajectory.empty() == options.run.empty()) {
-    throw std::invalid_argument("evaluate needs one of --trajectory EST.tum and --run DIR");
+  const int subjects = (options.trajectory.empty() ? 0 : 1) + (options.run.empty() ? 0 : 1) +
+                       (options.log.empty() ? 0 : 1);
+  if (subjects != 1) {
+    throw std::invalid_argument(
+        "evaluate needs one of --trajectory EST.tum, --run DIR and --log LOG");
+  }
+  const bool log_alone = !options.log.empty() && options.map.empty();
+  if (log_alone != options.reference.empty()) {
+    throw std::invalid_argument(log_alone ? "--log with --reference needs --map DRAWING as well"
+                                          : "evaluate needs --reference REF.tum|REF.csv");
   }
   if (!options.run.empty() && options.map.empty()) {
     throw std::invalid_argument(
         "--run needs --map DRAWING as well: the reference counts its rows from the top");
   }
+  if (!log_alone && !options.relations.empty()) {
+    throw std::invalid_argument("--relations belong to --log without --map");
+  }
 }
 
 RunDescription description_of(const EvaluateOptions& options) {
-  RunDescription description{.command = "evaluate",
-                             .seed = 0,
-                             .inputs = {{"reference", options.reference.string()}},
-                             .parameters = {.is_map = true}};
-  const fs::path& estimate = options.run.empty() ? options.trajectory : options.run;
-  description.inputs.emplace_back(options.run.empty() ? "trajectory" : "run", estimate.string());
+  RunDescription description{
+      .command = "evaluate", .seed = 0, .inputs = {}, .parameters = {.is_map = true}};
+  const auto add = [&](const std::string& flag, const fs::path& file) {
+    if (!file.empty()) {
+      description.inputs.emplace_back(flag, file.string());
+    }
+  };
+  add("reference", options.reference);
+  add("trajectory", options.trajectory);
+  add("run", options.run);
+  add("log", options.log);
+  add("map", options.map);
+  add("relations", options.relations);
   return description;
+}
+
+Evaluation evaluate(const EvaluateOptions& options) {
+  if (!options.run.empty()) {
+    return evaluate_run(options);
+  }
+  if (!options.trajectory.empty()) {
+    return evaluate_trajectory(options);
+  }
+  if (!options.map.empty()) {
+    return evaluate_scans(options.log, options.map, options.reference);
+  }
+  return evaluate_odometry(options.log, options.relations, {.max_gap_s = options.max_gap_s});
 }
 
 void run_evaluate(const EvaluateOptions& options) {
   check_inputs(options);
   validate(options.loss);
-  const Evaluation found =
-      options.run.empty() ? evaluate_trajectory(options) : evaluate_run(options);
+  const Evaluation found = evaluate(options);
   if (!options.out.empty()) {
     OutputFolder out(options.out, options.force);
     write_atomically(out / "metrics.json", found.json);
@@ -171,14 +198,19 @@ void add_algorithm_options(CLI::App& command, EvaluateOptions& options) {
   };
   option("--trajectory", options.trajectory, "A metric trajectory")->type_name("EST.tum");
   option("--run", options.run, "Or a folder that localize wrote")->type_name("DIR");
+  option("--log", options.log,
+         "Or a log that a mapper corrected: its odometry, raw and matched; with --map and "
+         "--reference: its scans in the drawing")
+      ->type_name("LOG");
   option("--reference", options.reference,
-         "What to compare with: a trajectory, or the poses of the run in the drawing")
-      ->required()
+         "What to compare with: a trajectory, or the poses in the drawing")
       ->type_name("REF.tum|REF.csv");
   option("--map", options.map, "The drawing of the run")->type_name("DRAWING");
   option("--alternative", options.alternatives,
          "Another reading of the drawing that counts as right too")
       ->type_name("ALT.csv");
+  option("--relations", options.relations, "Relative poses of --log that people checked")
+      ->type_name("RELATIONS");
   option("--max-gap", options.max_gap_s, "Between the times of two poses of a pair, s")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -202,7 +234,9 @@ void add_output_options(CLI::App& command, EvaluateOptions& options) {
 
 void add_evaluate_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
-      "evaluate", "Compare a trajectory, or a run in a drawing, with a reference.");
+      "evaluate",
+      "Compare a trajectory, a run in a drawing, or the odometry and scans of a log with a "
+      "reference.");
   auto options = std::make_shared<EvaluateOptions>();
   add_algorithm_options(*command, *options);
   add_output_options(*command, *options);

@@ -65,5 +65,56 @@ TEST_F(EvaluateCommandEndToEnd, SaysWhatIsWrong) {
   EXPECT_THAT(later.err, HasSubstr("--max-gap"));
 }
 
+/// A wall 2 m ahead of a robot that drives 4 m along it; the wheels measure 10 % too much.
+class EvaluateLogEndToEnd : public EvaluateCommandEndToEnd {
+ protected:
+  EvaluateLogEndToEnd() {
+    std::ofstream log(folder_ / "drive.log");
+    for (int i = 0; i <= 4; ++i) {
+      log << "FLASER 3 9 2 9 " << i << " 0 0 " << 1.1 * i << " 0 0 " << i << " host " << i << "\n";
+    }
+    std::ofstream(folder_ / "drive.relations") << "0 4 4 0 0 0 0 0\n";
+    std::ofstream picture(folder_ / "drawing.pgm");
+    picture << "P2 100 100 255\n";
+    for (int cell = 0; cell < 100 * 100; ++cell) {
+      picture << (cell % 100 == 50 ? "0 " : "255 ");
+    }
+    std::ofstream(folder_ / "reference.csv")
+        << "t_index,t,sketch_x_px,sketch_y_px,heading_rad,heading_rigid_rad,local_scale_px_per_m,"
+           "loo_uncertainty_m,local_rotation_deg_yup,anisotropy,in_image,in_hull,"
+           "dist_nearest_correspondence_m\n"
+        << "0,0,29.5,50,0,0,10,0,0,1,1,1,0\n";
+  }
+};
+
+TEST_F(EvaluateLogEndToEnd, ComparesTheOdometryOfALogWithRelations) {
+  const CommandResult result =
+      evaluate({"--log", file("drive.log"), "--relations", file("drive.relations")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("| relations up to 60 s | wheels | 1 | 0.400 |"));
+  EXPECT_THAT(result.out, HasSubstr("| corrected poses, over 1 m | wheels | 4 | 0.100 |"));
+  const CommandResult json = evaluate({"--log", file("drive.log"), "--json"});
+  EXPECT_THAT(json.out, HasSubstr("\"increment_nees\""));
+}
+
+TEST_F(EvaluateLogEndToEnd, LooksAtTheScansOfALogInADrawing) {
+  const CommandResult result = evaluate({"--log", file("drive.log"), "--map", file("drawing.pgm"),
+                                         "--reference", file("reference.csv")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("| 3 returns | value |"));
+  EXPECT_THAT(result.out, HasSubstr("| beams within 0.1 | 0.33 |"));  // the one ahead
+}
+
+TEST_F(EvaluateLogEndToEnd, SaysWhatIsMissing) {
+  EXPECT_EQ(evaluate({"--log", file("drive.log"), "--reference", file("reference.csv")}).exit_code,
+            2);
+  EXPECT_EQ(evaluate({"--log", file("drive.log"), "--map", file("drawing.pgm")}).exit_code, 2);
+  EXPECT_EQ(evaluate({"--trajectory", file("estimate.tum")}).exit_code, 2);
+  EXPECT_EQ(evaluate({"--trajectory", file("estimate.tum"), "--reference", file("reference.tum"),
+                      "--relations", file("drive.relations")})
+                .exit_code,
+            2);
+}
+
 }  // namespace
 }  // namespace sketchloc

@@ -3,10 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <iomanip>
-#include <iostream>
 #include <numbers>
-#include <ostream>
 #include <string>
 
 #include "datasets/io/corrected_poses.hpp"
@@ -82,7 +79,7 @@ TEST(IncrementNees, IsTheSquaredErrorByItsVariance) {
   EXPECT_NEAR(widened[0], 1.0, kTolerance);
 }
 
-// From here on: real logs, and the tables of docs/results/odometry.md.
+// From here on: real logs; their figures are in docs/results/odometry.md.
 
 struct RealRun {
   std::string name;
@@ -140,21 +137,6 @@ double ate_rmse_m(const MatchedPoses& poses) {
   return absolute_errors(*align(poses, Alignment::Se2)).translation_m->rmse;
 }
 
-void print_errors(const PoseErrors& errors) {
-  std::cout << std::fixed << std::setprecision(3) << " | " << errors.translation_m->median << " / "
-            << errors.translation_m->rmse << std::setprecision(2) << " | "
-            << deg_from_rad(errors.rotation_rad->median) << " / "
-            << deg_from_rad(errors.rotation_rad->rmse);
-}
-
-void print_drift(const std::string& name, const MatchedPoses& poses) {
-  std::cout << "| " << name << std::fixed << std::setprecision(2) << " | " << ate_rmse_m(poses);
-  for (const double way_m : {1.0, 5.0, 10.0}) {
-    print_errors(drift_over_way(poses, way_m));
-  }
-  std::cout << " |\n";
-}
-
 class OdometryDriftEndToEnd : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(OdometryDriftEndToEnd, StaysNearTheCorrectedPosesOfARealLog) {
@@ -165,13 +147,6 @@ TEST_P(OdometryDriftEndToEnd, StaysNearTheCorrectedPosesOfARealLog) {
   const Odometry matched = matched_odometry(real->run);
   const MatchedPoses raw_poses = pair_up(*real, raw_odometry(real->run));
   const MatchedPoses poses = pair_up(*real, matched);
-  print_drift(real->name + ", wheels", raw_poses);
-  print_drift(real->name + ", matched", poses);
-  std::cout << "first, matched, degenerate, too few points, rejected:";
-  for (const int steps : matched.steps_by_status) {
-    std::cout << " " << steps;
-  }
-  std::cout << "\n";
   EXPECT_LT(ate_rmse_m(poses), 0.6);
   EXPECT_LT(ate_rmse_m(poses), 0.25 * ate_rmse_m(raw_poses));
   EXPECT_LT(drift_over_way(poses, 10.0).translation_m->median, 0.1);
@@ -189,9 +164,6 @@ TEST_P(OdometryDriftEndToEnd, HasAnHonestCovariance) {
   const Odometry matched = matched_odometry(real->run);
   const std::vector<double> values =
       increment_nees(poses_of(real->world_from_robot), matched.increments, reference_sigma);
-  std::cout << "| " << real->name << std::fixed << std::setprecision(2) << " | "
-            << quantile(values, 0.5) << " | " << quantile(values, 0.9) << " | "
-            << share_within(values, 7.815) << " |\n";
   EXPECT_GT(quantile(values, 0.5), 0.5);
   EXPECT_LT(quantile(values, 0.5), 3.0);  // 2.37 for an honest one
 }
@@ -215,16 +187,12 @@ TEST_P(RelationsEndToEnd, AreMetAsWellByMatchedOdometryAsByTheMapperLocally) {
     GTEST_SKIP() << "the development data are not here";
   }
   const std::vector<Relation> relations = read_relations(*file);
-  const auto errors_of = [&](const char* what, const MetricTrajectory& trajectory) {
-    const RelationErrors result = relation_errors(trajectory, relations, max_gap_s);
-    std::cout << "| " << name << ", " << what << " | " << result.errors.translation_m->count;
-    print_errors(result.errors);
-    std::cout << " |\n";
-    return result.errors;
+  const auto errors_of = [&, gap_s = max_gap_s](const MetricTrajectory& trajectory) {
+    return relation_errors(trajectory, relations, gap_s).errors;
   };
-  const PoseErrors raw = errors_of("wheels", raw_odometry(real->run).odom_from_robot);
-  const PoseErrors matched = errors_of("matched", matched_odometry(real->run).odom_from_robot);
-  const PoseErrors corrected = errors_of("corrected by a mapper", real->world_from_robot);
+  const PoseErrors raw = errors_of(raw_odometry(real->run).odom_from_robot);
+  const PoseErrors matched = errors_of(matched_odometry(real->run).odom_from_robot);
+  const PoseErrors corrected = errors_of(real->world_from_robot);
   EXPECT_LT(matched.translation_m->median, corrected.translation_m->median);
   EXPECT_LT(matched.translation_m->mean, 0.25 * raw.translation_m->mean);
   EXPECT_LT(matched.rotation_rad->mean, 0.1 * raw.rotation_rad->mean);
