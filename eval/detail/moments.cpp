@@ -36,11 +36,15 @@ std::size_t farthest_step(std::span<const std::size_t> taken, std::size_t steps)
   return farthest;
 }
 
-/// The moments that have a reason; one step may have two of them.
+/// Moments this few steps apart look the same.
+constexpr std::size_t kSameMoment = 3;
+
+/// The moments that have a reason; one may have two of them.
 std::vector<Moment> notable_moments(const RunRecord& record, std::span<const StepError> errors) {
   std::vector<Moment> moments;
   const auto add = [&](std::size_t index, const std::string& reason) {
-    const auto same = std::ranges::find(moments, index, &Moment::index);
+    const auto same = std::ranges::find_if(
+        moments, [&](const Moment& m) { return distance(m.index, index) <= kSameMoment; });
     if (same != moments.end()) {
       same->reason += ", " + reason;
     } else {
@@ -61,17 +65,29 @@ std::vector<Moment> notable_moments(const RunRecord& record, std::span<const Ste
   return moments;
 }
 
-/// Fills up with the steps farthest from those taken already.
-void add_evenly(std::vector<Moment>& moments, std::size_t steps, std::size_t count) {
+/// The step nearest to this one whose particles are known too; itself where there is none near.
+std::size_t with_snapshot(const RunRecord& record, std::size_t index, std::size_t reach) {
+  const ParticleSnapshot* snapshot = nearest_snapshot(record, record.steps[index].step);
+  if (snapshot == nullptr) {
+    return index;
+  }
+  const std::size_t known = index_of(record, snapshot->step);
+  return known < record.steps.size() && distance(known, index) < reach ? known : index;
+}
+
+/// Fills up with the steps farthest from those taken already, or a little beside them.
+void add_evenly(std::vector<Moment>& moments, const RunRecord& record, std::size_t count) {
+  const std::size_t steps = record.steps.size();
   constexpr std::size_t kNearestShare = 3;
   const std::size_t nearest = std::max<std::size_t>(1, steps / (kNearestShare * count));
   std::vector<std::size_t> taken;
   std::ranges::transform(moments, std::back_inserter(taken), &Moment::index);
   while (moments.size() < count) {
-    const std::size_t index = farthest_step(taken, steps);
-    if (distance_to(taken, index) < nearest) {
+    const std::size_t farthest = farthest_step(taken, steps);
+    if (distance_to(taken, farthest) < nearest) {
       return;
     }
+    const std::size_t index = with_snapshot(record, farthest, nearest);
     moments.push_back({.letter = {}, .index = index, .reason = {}, .error = {}});
     taken.push_back(index);
   }
@@ -85,7 +101,7 @@ std::vector<Moment> choose_moments(const RunRecord& record, std::span<const Step
     return {};
   }
   std::vector<Moment> moments = notable_moments(record, errors);
-  add_evenly(moments, record.steps.size(), moments.size() + others);
+  add_evenly(moments, record, moments.size() + others);
   std::ranges::sort(moments, {}, &Moment::index);
   for (std::size_t i = 0; i < moments.size(); ++i) {
     moments[i].letter = std::string(1, static_cast<char>('A' + i));

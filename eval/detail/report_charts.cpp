@@ -195,12 +195,11 @@ bool any_injected(const RunRecord& record) {
 
 Chart recovery_chart(const ReportModel& model) {
   Chart chart = empty_chart(model, "Recovery", "% of particles replaced");
-  chart.curves = {
-      {.name = "replaced",
-       .colour = kFair,
-       .points = over_steps(model,
-                            [](const StepReport& report) { return 100.0 * report.injected_share; }),
-       .filled = true}};
+  chart.curves = {{.name = "replaced",
+                   .colour = kFair,
+                   .points = over_steps(model, [](const StepReport& report) {
+                     return 100.0 * report.injected_share;
+                   })}};
   fit_y_range(chart);
   chart.y_low = 0.0;
   return chart;

@@ -200,8 +200,10 @@ Moment moved_to(const ReportModel& model, const Moment& moment, std::size_t step
   if (report == steps.end() || static_cast<std::size_t>(report - steps.begin()) == moment.index) {
     return moved;
   }
+  const double later_s = report->time_s - steps[moment.index].time_s;
   moved.index = static_cast<std::size_t>(report - steps.begin());
-  moved.reason.clear();
+  moved.reason =
+      duration(std::abs(later_s)) + (later_s < 0.0 ? " before " : " after ") + moment.letter;
   const auto error = std::ranges::find(model.errors, report->step, &StepError::step);
   moved.error = error != model.errors.end() ? std::optional(*error) : std::nullopt;
   return moved;

@@ -109,12 +109,17 @@ std::string nees_text(const NeesSummary& nees) {
          percent(nees.share_inside) + " inside the 95&#160;% region: " + meaning;
 }
 
-std::string error_rows(const SketchErrors& errors) {
+std::string error_rows(const ReportModel& model) {
+  const SketchErrors& errors = model.summary;
+  const bool reference_is_exact = std::ranges::all_of(
+      model.errors, [](const StepError& error) { return error.uncertainty_m == 0.0; });
   std::string html =
       row("scored steps", fixed(static_cast<double>(errors.scored), 0)) +
       row("within 1 m / 2 m",
           percent(errors.share_within_1_m) + " / " + percent(errors.share_within_2_m)) +
-      row("within 2&#963; of the reference", percent(errors.share_within_uncertainty)) +
+      (reference_is_exact
+           ? std::string()
+           : row("within 2&#963; of the reference", percent(errors.share_within_uncertainty))) +
       row("first lost", errors.first_loss_s ? "after " + duration(*errors.first_loss_s) : "never") +
       row("lost at the end", errors.lost_at_end ? "yes" : "no") +
       row("estimated / reference scale, median", fixed(errors.median_scale_ratio, 2));
@@ -154,8 +159,8 @@ std::string tables_html(const ReportModel& model) {
     html += error_table(model.summary);
   }
   html += "<table class=\"facts\"><tbody>" +
-          (model.has_reference() ? error_rows(model.summary) : std::string()) +
-          run_rows(model.record) + "</tbody></table>";
+          (model.has_reference() ? error_rows(model) : std::string()) + run_rows(model.record) +
+          "</tbody></table>";
   if (!model.record.parameters.empty()) {
     html += "<details><summary>Parameters</summary><pre>" + escaped(model.record.parameters) +
             "</pre></details>";

@@ -59,6 +59,32 @@ TEST(Moments, OfAShortRunAreItsSteps) {
   EXPECT_TRUE(choose_moments(record, {}, 4).empty());
 }
 
+TEST(Moments, ThatLookTheSameAreOne) {
+  RunRecord record = make_synthetic_run(Outcome::Located);
+  std::vector<StepError> errors = step_errors(record);
+  for (StepError& error : errors) {
+    error.translation_m = 0.0;
+  }
+  (errors.end() - 2)->translation_m = 4.0;  // lost at the end, and worst one step later
+  errors.back().translation_m = 5.0;
+  const auto moments = choose_moments(record, errors, 0);
+  ASSERT_EQ(moments.size(), 1U);
+  EXPECT_EQ(moments.front().reason, "first lost, largest error");
+}
+
+TEST(Moments, BetweenTheNotableOnesHaveParticlesWhereTheyCan) {
+  RunRecord record = make_synthetic_run(Outcome::Located);
+  record.snapshots.clear();
+  for (std::size_t index = 2; index < record.steps.size(); index += 5) {
+    record.snapshots.push_back({.step = record.steps[index].step, .particles = {}});
+  }
+  for (const Moment& moment : choose_moments(record, step_errors(record), 4)) {
+    if (moment.reason.empty()) {
+      EXPECT_EQ(moment.index % 5, 2U);
+    }
+  }
+}
+
 TEST(NearestSnapshot, IsTheOneTakenClosest) {
   RunRecord record;
   EXPECT_EQ(nearest_snapshot(record, 3), nullptr);
