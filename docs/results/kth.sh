@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Re-makes the table of docs/results/kth.md: data sets from the drawings, five runs on each, one
-# row per drawing. Needs the development data in $SKETCHLOC_DATA. What is done is not repeated.
-# Usage: docs/results/kth.sh OUT_DIR
+# Re-makes the table of docs/results/kth.md: data sets from the drawings, runs on each, one row per
+# drawing. Needs the development data in $SKETCHLOC_DATA. What is done is not repeated.
+# Usage: docs/results/kth.sh OUT_DIR [SEEDS]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 sketchloc=${SKETCHLOC:-$here/build/dev/apps/sketchloc}
 kth=${SKETCHLOC_DATA:-$here/../shared/data}/sketches/kth
-work=${1:?usage: kth.sh OUT_DIR}
-seeds=(1 2 3 4 5)
+work=${1:?usage: kth.sh OUT_DIR [SEEDS]}
+seeds=${2:-5}
 
 generate() { # NAME DRAWING SEED CORRESPONDENCES...
   local name=$1 drawing=$2 seed=$3 pairs=()
@@ -61,25 +61,25 @@ for drawing in "$kth"/[0-9][0-9].png; do
   generate "both/$set" "$drawing" "$((10#$set + 1))" "$a" "$b"
   generate "a/$set" "$drawing" "$((10#$set + 1))" "$a" || echo "kth: $set: not from a alone" >&2
   generate "b/$set" "$drawing" "$((10#$set + 1))" "$b" || echo "kth: $set: not from b alone" >&2
-  for seed in "${seeds[@]}"; do localize "$set" "$drawing" mcl "$seed"; done
+  for seed in $(seq "$seeds"); do localize "$set" "$drawing" mcl "$seed"; done
   localize "$set" "$drawing" odometry 1
   echo "kth: $set done" >&2
 done
 
-for set in "${sets[@]}"; do row "$set"; done | awk -F '\t' '
+for set in "${sets[@]}"; do row "$set"; done | awk -F '\t' -v seeds="$seeds" '
   BEGIN {
     print "| drawing | fit | left out, m | a - b, m | scored | in free | within 1 m | within 2 m | within 2 sigma | median, m | heading, deg | lost at end | odometry within 2 m | odometry median, m |"
     print "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|"
   }
-  { printf "| %s | %s | %.2f | %s | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.2f | %.1f | %d of 5 | %.0f %% | %.2f |\n",
-           $1, $2, $3, $4, 100 * $5, 100 * $6, $7, $8, $9, $10, $11, $12, $13, $14
+  { printf "| %s | %s | %.2f | %s | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.2f | %.1f | %d of %d | %.0f %% | %.2f |\n",
+           $1, $2, $3, $4, 100 * $5, 100 * $6, $7, $8, $9, $10, $11, $12, seeds, $13, $14
     for (i = 3; i <= 14; i++) { sum[i] += $i; square[i] += $i * $i } }
   # 95 % interval of the mean over drawings; 2.11: Student, 17 degrees of freedom.
   function mean(i) { return sum[i] / NR }
   function half(i) { return 2.11 * sqrt((square[i] - sum[i] ^ 2 / NR) / (NR - 1) / NR) }
   END {
-    printf "| mean | | %.2f | %.2f | %.0f %% | %.0f %% | %.0f +- %.0f %% | %.0f +- %.0f %% | %.0f +- %.0f %% | %.2f +- %.2f | %.1f +- %.1f | %d of %d | %.0f +- %.0f %% | %.2f +- %.2f |\n",
+    printf "| mean | | %.2f | %.2f | %.0f %% | %.0f %% | %.0f ± %.0f %% | %.0f ± %.0f %% | %.0f ± %.0f %% | %.2f ± %.2f | %.1f ± %.1f | %d of %d | %.0f ± %.0f %% | %.2f ± %.2f |\n",
            mean(3), mean(4), 100 * mean(5), 100 * mean(6), mean(7), half(7), mean(8), half(8),
-           mean(9), half(9), mean(10), half(10), mean(11), half(11), sum[12], 5 * NR,
+           mean(9), half(9), mean(10), half(10), mean(11), half(11), sum[12], seeds * NR,
            mean(13), half(13), mean(14), half(14)
   }'
