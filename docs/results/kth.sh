@@ -24,8 +24,10 @@ localize() { # SET DRAWING METHOD SEED
     --out "$out" >/dev/null
 }
 
-# RMS distance of the references that each annotator's places give alone, local metres.
+# RMS distance of the references that each annotator's places give alone, local metres; "-" where
+# one of them is not enough.
 disagreement() { # SET
+  [ -d "$work/a/$1" ] && [ -d "$work/b/$1" ] || { printf -- - && return; }
   paste -d, "$work/a/$1/reference.csv" "$work/b/$1/reference.csv" "$work/both/$1/reference.csv" |
     awk -F, 'NR > 1 && $37 && $38 { n++; s += (($3 - $16) ^ 2 + ($4 - $17) ^ 2) / $33 ^ 2 }
              END { printf "%.2f", n ? sqrt(s / n) : 0 }'
@@ -73,13 +75,14 @@ for set in "${sets[@]}"; do row "$set"; done | awk -F '\t' -v seeds="$seeds" '
   }
   { printf "| %s | %s | %.2f | %s | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.0f %% | %.2f | %.1f | %d of %d | %.0f %% | %.2f |\n",
            $1, $2, $3, $4, 100 * $5, 100 * $6, $7, $8, $9, $10, $11, $12, seeds, $13, $14
-    for (i = 3; i <= 14; i++) { sum[i] += $i; square[i] += $i * $i } }
+    for (i = 3; i <= 14; i++) { sum[i] += $i; square[i] += $i * $i }
+    compared += $4 != "-" }
   # 95 % interval of the mean over drawings; 2.11: Student, 17 degrees of freedom.
   function mean(i) { return sum[i] / NR }
   function half(i) { return 2.11 * sqrt((square[i] - sum[i] ^ 2 / NR) / (NR - 1) / NR) }
   END {
     printf "| mean | | %.2f | %.2f | %.0f %% | %.0f %% | %.0f ± %.0f %% | %.0f ± %.0f %% | %.0f ± %.0f %% | %.2f ± %.2f | %.1f ± %.1f | %d of %d | %.0f ± %.0f %% | %.2f ± %.2f |\n",
-           mean(3), mean(4), 100 * mean(5), 100 * mean(6), mean(7), half(7), mean(8), half(8),
+           mean(3), sum[4] / compared, 100 * mean(5), 100 * mean(6), mean(7), half(7), mean(8), half(8),
            mean(9), half(9), mean(10), half(10), mean(11), half(11), sum[12], seeds * NR,
            mean(13), half(13), mean(14), half(14)
   }'
