@@ -120,19 +120,15 @@ class Generator {
       return generate_data_set(params, seed);
     }
     const Building building = building_of(seed);
-    std::optional<DataSet> data_set =
-        given_ ? generate_data_set(building, given_->drawing, params, seed)
-               : generate_data_set(building, params, seed);
-    if (!data_set) {
-      throw std::runtime_error(options_.map.string() +
-                               ": the robot cannot drive from place to place in this map; check "
-                               "--cell-m, or give a smaller --drive.robot_radius_m");
-    }
+    DataSetInBuilding made = given_ ? generate_data_set(building, given_->drawing, params, seed)
+                                    : generate_data_set(building, params, seed);
+    require_made(made.status);
+    DataSet data_set = *std::move(made.data_set);
     if (given_) {
-      data_set->reference =
-          with_support(std::move(data_set->reference), given_->fit, data_set->world_from_robot);
+      data_set.reference =
+          with_support(std::move(data_set.reference), given_->fit, data_set.world_from_robot);
     }
-    return *std::move(data_set);
+    return data_set;
   }
 
   void write(const fs::path& folder, std::uint64_t seed) const {
@@ -164,6 +160,28 @@ class Generator {
   }
 
  private:
+  void require_made(DataSetInBuilding::Status status) const {
+    const auto fail = [this](const char* what_to_do) {
+      throw std::runtime_error(options_.map.string() + ": " + what_to_do);
+    };
+    switch (status) {
+      case DataSetInBuilding::Status::Made:
+        return;
+      case DataSetInBuilding::Status::NoFreeSpace:
+        return fail(
+            "the robot fits nowhere in this map; check --cell-m, or give a smaller "
+            "--drive.robot_radius_m or --map_reading.min_floor_m2");
+      case DataSetInBuilding::Status::Confined:
+        return fail(
+            "the robot cannot drive from place to place in this map; check --cell-m, or "
+            "give a smaller --drive.robot_radius_m");
+      case DataSetInBuilding::Status::NothingToDraw:
+        return fail(
+            "nothing of this map is drawn; make --person.pen.left_out_share or "
+            "--map_reading.min_wall_m smaller, or check --cell-m");
+    }
+  }
+
   DataSetParams data_set_params() const {
     const bool drawn = !given_ && kPersonKinds.at(options_.person) != PersonKind::None;
     return {.building = kBuildingKinds.at(options_.kind),

@@ -54,6 +54,43 @@ Drawing make_drawing(const Building& building, const DataSetParams& params, std:
   return draw(building.plan, *params.person, rng);
 }
 
+Drive drive_in(const Building& building, const DataSetParams& params, std::uint64_t seed) {
+  Rng rng = make_rng(seed, kDrive);
+  return drive_through(building, params.drive, rng);
+}
+
+DataSetInBuilding::Status status_of(Drive::Status status) {
+  switch (status) {
+    case Drive::Status::Driven:
+      return DataSetInBuilding::Status::Made;
+    case Drive::Status::NoFreeSpace:
+      return DataSetInBuilding::Status::NoFreeSpace;
+    case Drive::Status::NoWay:
+    case Drive::Status::Confined:
+      return DataSetInBuilding::Status::Confined;
+  }
+  return DataSetInBuilding::Status::NoFreeSpace;
+}
+
+/// What the robot measures on a drive, with the truth in the drawing.
+DataSetInBuilding measured(const Building& building, Drawing drawing, Drive drive,
+                           const DataSetParams& params, std::uint64_t seed) {
+  if (drive.status != Drive::Status::Driven) {
+    return {.status = status_of(drive.status)};
+  }
+  if (drawing.status == Drawing::Status::NothingToDraw) {
+    return {.status = DataSetInBuilding::Status::NothingToDraw};
+  }
+  Run run = measure(building, drive.world_from_robot, params, seed);
+  Reference reference = true_reference(drawing, drive.world_from_robot);
+  return {.status = DataSetInBuilding::Status::Made,
+          .data_set = DataSet{.building = building,
+                              .drawing = std::move(drawing),
+                              .world_from_robot = std::move(drive.world_from_robot),
+                              .run = std::move(run),
+                              .reference = std::move(reference)}};
+}
+
 }  // namespace
 
 void validate(const DataSetParams& params) {
@@ -65,36 +102,33 @@ void validate(const DataSetParams& params) {
   validate(params.odometry);
 }
 
-std::optional<DataSet> generate_data_set(const Building& building, const DataSetParams& params,
-                                         std::uint64_t seed) {
+DataSetInBuilding generate_data_set(const Building& building, const DataSetParams& params,
+                                    std::uint64_t seed) {
   validate(params);
-  return generate_data_set(building, make_drawing(building, params, seed), params, seed);
+  Drive drive = drive_in(building, params, seed);
+  if (drive.status != Drive::Status::Driven) {  // a building without rooms cannot be drawn either
+    return {.status = status_of(drive.status)};
+  }
+  return measured(building, make_drawing(building, params, seed), std::move(drive), params, seed);
 }
 
-std::optional<DataSet> generate_data_set(const Building& building, Drawing drawing,
-                                         const DataSetParams& params, std::uint64_t seed) {
+DataSetInBuilding generate_data_set(const Building& building, Drawing drawing,
+                                    const DataSetParams& params, std::uint64_t seed) {
   validate(params);
-  Rng drive_rng = make_rng(seed, kDrive);
-  Drive drive = drive_through(building, params.drive, drive_rng);
-  if (drive.status != Drive::Status::Driven) {
-    return std::nullopt;
-  }
-  Run run = measure(building, drive.world_from_robot, params, seed);
-  Reference reference = true_reference(drawing, drive.world_from_robot);
-  return DataSet{.building = building,
-                 .drawing = std::move(drawing),
-                 .world_from_robot = std::move(drive.world_from_robot),
-                 .run = std::move(run),
-                 .reference = std::move(reference)};
+  return measured(building, std::move(drawing), drive_in(building, params, seed), params, seed);
 }
 
 DataSet generate_data_set(const DataSetParams& params, std::uint64_t seed) {
   for (std::uint64_t attempt = 0; attempt < kAttempts; ++attempt) {
     Rng plan_rng = make_rng(seed, kPlan, attempt);
     const Building building = building_from_plan(make_plan(params.building, plan_rng));
-    std::optional<DataSet> data_set = generate_data_set(building, params, seed);
-    if (data_set) {
-      return *std::move(data_set);
+    DataSetInBuilding made = generate_data_set(building, params, seed);
+    if (made.status == DataSetInBuilding::Status::NothingToDraw) {
+      throw std::runtime_error("the person leaves out every line; " +
+                               std::string("make person.pen.left_out_share smaller"));
+    }
+    if (made.data_set) {
+      return *std::move(made.data_set);
     }
   }
   throw std::runtime_error("no building was found that the robot can drive through; " +

@@ -37,12 +37,24 @@ struct DataSet {
 /// Everything from one seed: the same seed gives the same data set, bit for bit.
 DataSet generate_data_set(const DataSetParams& params, std::uint64_t seed);
 
-/// The same in a given building. None where the robot cannot drive from room to room there.
-std::optional<DataSet> generate_data_set(const Building& building, const DataSetParams& params,
-                                         std::uint64_t seed);
+/// A data set in a given building, or why there is none.
+struct DataSetInBuilding {
+  enum class Status {
+    Made,
+    NoFreeSpace,   ///< the robot fits nowhere
+    Confined,      ///< it cannot drive from place to place
+    NothingToDraw  ///< the building has no lines, or the person left out all of them
+  };
+  Status status = Status::NoFreeSpace;
+  std::optional<DataSet> data_set = {};  ///< where it was made
+};
+
+/// The same in a given building.
+DataSetInBuilding generate_data_set(const Building& building, const DataSetParams& params,
+                                    std::uint64_t seed);
 
 /// The same with a drawing that somebody made of that building; params.person is not used.
-std::optional<DataSet> generate_data_set(const Building& building, Drawing drawing,
-                                         const DataSetParams& params, std::uint64_t seed);
+DataSetInBuilding generate_data_set(const Building& building, Drawing drawing,
+                                    const DataSetParams& params, std::uint64_t seed);
 
 }  // namespace sketchloc

@@ -21,7 +21,7 @@ constexpr double kTurnStep_rad = 0.1;    ///< of a turn on the spot
 constexpr double kTurnOnSpot_rad = 0.6;  ///< a corner sharper than this is turned on the spot
 constexpr double kGoalArea_m = 7.0;
 constexpr double kShortestLeg_m = 1.0;
-constexpr int kFailuresAllowed = 50;
+constexpr int kFailuresAllowed = 50;  ///< goals in a row that lead nowhere
 
 double heading_rad(const Eigen::Vector2d& direction) {
   return std::atan2(direction.y(), direction.x());
@@ -199,22 +199,26 @@ Drive drive_through(const Building& building, const DriveParams& params, Rng& rn
   Eigen::Vector2d here = goals.next(rng);
   Driver driver(params, here, uniform(-std::numbers::pi, std::numbers::pi, rng));
   int failures = 0;
-  while (driver.way_m() < params.length_m && failures < kFailuresAllowed) {
+  bool way_found = false;  // to one of the goals that failed in a row
+  while (driver.way_m() < params.length_m) {
     const Eigen::Vector2d goal = goals.next(rng);
     std::optional<Polyline> line = planner.route(here, goal);
     if (!line || detail::length(*line) < kShortestLeg_m) {
-      ++failures;
+      way_found = way_found || line;
+      if (++failures == kFailuresAllowed) {
+        return {.status = way_found ? Drive::Status::Confined : Drive::Status::NoWay};
+      }
       continue;
     }
+    failures = 0;
+    way_found = false;
     smooth(*line, planner, 60);
     wander(*line, params.wander_m, planner, rng);
     smooth(*line, planner, 20);
     driver.follow(detail::resample(*line, kStep_m));
     here = goal;
   }
-  const bool confined = failures >= kFailuresAllowed;
-  return {.status = confined ? Drive::Status::Confined : Drive::Status::Driven,
-          .world_from_robot = driver.take()};
+  return {.status = Drive::Status::Driven, .world_from_robot = driver.take()};
 }
 
 }  // namespace sketchloc

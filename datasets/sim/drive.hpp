@@ -39,7 +39,8 @@ struct Drive {
   enum class Status {
     Driven,
     NoFreeSpace,  ///< the robot fits nowhere
-    Confined      ///< only the room it started in can be reached
+    NoWay,        ///< there are other places, but no ways to them
+    Confined      ///< all places that can be reached are too near to drive to
   };
   Status status = Status::NoFreeSpace;
   MetricTrajectory world_from_robot{};  ///< one pose per scan

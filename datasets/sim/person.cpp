@@ -130,6 +130,9 @@ PersonParams tps_person() {
 
 Drawing draw(const FloorPlan& plan, const PersonParams& person, Rng& rng) {
   validate(person);
+  if (plan.rooms.empty() && plan.walls.empty()) {
+    return {.status = Drawing::Status::NothingToDraw};
+  }
   const PenParams& pen = person.pen;
   Deformation sketch_from_world = detail::distort(plan, person.distortion, rng);
   std::vector<Stroke> strokes;
@@ -139,6 +142,9 @@ Drawing draw(const FloorPlan& plan, const PersonParams& person, Rng& rng) {
     if (uniform(rng) < pen.doubled_share) {
       strokes.push_back(detail::drawn_by_hand(meant, pen, rng));
     }
+  }
+  if (strokes.empty()) {
+    return {.status = Drawing::Status::NothingToDraw};
   }
   const PlaneBox paper = with_margins(bounds(strokes), pen, rng);
   const double stroke_width_px = uniform(pen.min_stroke_px, pen.max_stroke_px, rng);

@@ -101,8 +101,13 @@ PersonParams tps_person();
 
 /// A drawing with its truth.
 struct Drawing {
-  Sketch sketch;
+  enum class Status {
+    Drawn,
+    NothingToDraw  ///< the plan has no lines, or the person left out all of them; no sketch
+  };
+  Sketch sketch{};
   Deformation sketch_from_world{};
+  Status status = Status::Drawn;
 };
 
 /// A person's drawing of a building.

@@ -140,6 +140,21 @@ TEST(GenerateEndToEnd, DrivesThroughAMapThatSomebodyDrew) {
   EXPECT_TRUE(fs::exists(folder / "set" / "reference.yaml"));
 }
 
+TEST(GenerateEndToEnd, SaysWhenAMapHasNoRoomOrNothingIsDrawn) {
+  const testing::TemporaryDirectory folder;
+  write_hall(folder / "");
+  const CommandResult tiny =
+      generate({"--map", folder / "map.pgm", "--cell-m", "0.001", "--out", folder / "set"});
+  EXPECT_EQ(tiny.exit_code, 1);
+  EXPECT_THAT(tiny.err, HasSubstr("map.pgm: the robot fits nowhere in this map; check --cell-m"));
+  const CommandResult lazy =
+      generate({"--map", folder / "map.pgm", "--cell-m", "0.05", "--person.pen.left_out_share", "1",
+                "--out", folder / "set"});
+  EXPECT_EQ(lazy.exit_code, 1);
+  EXPECT_THAT(lazy.err, HasSubstr("map.pgm: nothing of this map is drawn; make "
+                                  "--person.pen.left_out_share"));
+}
+
 TEST(GenerateEndToEnd, NeedsPlacesForAGivenDrawing) {
   const testing::TemporaryDirectory folder;
   write_hall(folder / "");

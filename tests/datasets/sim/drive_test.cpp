@@ -77,6 +77,10 @@ TEST(Drive, SaysWhenTheRobotFitsNowhere) {
             Drive::Status::NoFreeSpace);
 }
 
+TEST(Drive, GoesOnWhereManyGoalsAreTooNear) {
+  EXPECT_GT(driven(single_room(2.4), {.length_m = 150.0}).size(), 300U);
+}
+
 TEST(Drive, SaysWhenThereIsNowhereToGo) {
   Rng rng = make_rng(1);
   EXPECT_EQ(drive_through(single_room(1.2), {}, rng).status, Drive::Status::Confined);

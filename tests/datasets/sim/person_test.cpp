@@ -24,6 +24,17 @@ Drawing drawn(const FloorPlan& floor_plan, const PersonParams& person, std::uint
   return draw(floor_plan, person, rng);
 }
 
+TEST(Person, SaysThatThereIsNothingToDraw) {
+  EXPECT_EQ(drawn({}, human_person(), 1).status, Drawing::Status::NothingToDraw);
+  FloorPlan corner;
+  corner.walls.push_back({.from_in_world = {0.0, 0.0}, .to_in_world = {3.0, 0.0}});
+  corner.walls.push_back({.from_in_world = {3.0, 0.0}, .to_in_world = {3.0, 2.0}});
+  EXPECT_EQ(drawn(corner, tps_person(), 1).status, Drawing::Status::Drawn);
+  PersonParams lazy = tps_person();
+  lazy.pen.left_out_share = 1.0;
+  EXPECT_EQ(drawn(corner, lazy, 1).status, Drawing::Status::NothingToDraw);
+}
+
 TEST(HumanPersonStatistical, NeverFoldsTheBuilding) {
   for (const BuildingKind kind :
        {BuildingKind::Home, BuildingKind::Office, BuildingKind::Warehouse}) {
