@@ -21,7 +21,7 @@ void select_beams(std::vector<SelectedBeam>& selected, const Scan& scan,
   for (int sector = 0; sector < sectors; ++sector) {
     const auto middle = static_cast<std::size_t>((2 * sector + 1) * readings / (2 * sectors));
     const double range_m = scan.ranges_m[middle];
-    if (!(range_m > 0.0 && range_m >= scan.min_range_m)) {
+    if (!scan.is_in_reach_or_beyond(middle)) {
       continue;
     }
     const bool returned = scan.is_return(middle) && range_m <= most_m;

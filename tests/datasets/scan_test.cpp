@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 
@@ -35,6 +36,35 @@ TEST(Scan, TakesRangesFromMinimumUpToMaximumAsReturns) {
   for (std::size_t beam = 0; beam < expected.size(); ++beam) {
     EXPECT_EQ(scan.is_return(beam), expected[beam]) << scan.ranges_m[beam];
   }
+}
+
+TEST(Scan, TakesAReadingOfTheLargestRangeForNoReturnHoweverItIsRounded) {
+  Scan scan = three_beams();
+  for (const double max_range_m : {5.6, 4.095, 81.92, 29.9, 79.99, 80.0, 81.91}) {
+    scan.max_range_m = max_range_m;
+    scan.ranges_m[0] = static_cast<float>(max_range_m);
+    EXPECT_FALSE(scan.is_return(0)) << max_range_m;
+    scan.ranges_m[0] = std::nextafter(scan.ranges_m[0], 0.0F);
+    EXPECT_TRUE(scan.is_return(0)) << max_range_m;
+  }
+}
+
+TEST(Scan, TakesTheSmallestRangeForAReturnHoweverItIsRounded) {
+  Scan scan = three_beams();
+  for (const double min_range_m : {0.02, 0.05, 0.1, 0.06}) {
+    scan.min_range_m = min_range_m;
+    scan.ranges_m[0] = static_cast<float>(min_range_m);
+    EXPECT_TRUE(scan.is_return(0)) << min_range_m;
+  }
+}
+
+TEST(Scan, TakesARangeOfZeroForNoReturnEvenWithoutASmallestRange) {
+  Scan scan = three_beams();
+  scan.min_range_m = 0.0;
+  scan.ranges_m = {0.0F, 1e-3F, -1.0F};
+  EXPECT_FALSE(scan.is_return(0));
+  EXPECT_TRUE(scan.is_return(1));
+  EXPECT_FALSE(scan.is_return(2));
 }
 
 TEST(EndPoints, LieAheadAndToTheLeftInTheRobotFrame) {
