@@ -1,7 +1,5 @@
 #pragma once
 
-#include <array>
-#include <charconv>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -10,6 +8,7 @@
 #include <utility>
 
 #include "apps/config_node.hpp"
+#include "motion/number_text.hpp"
 
 /// Parameter structs to and from text. A struct takes part by one template beside it, which fixes
 /// the names (the fields' own) and their order:
@@ -68,8 +67,7 @@ ConfigNode to_config(T value) {
   } else if constexpr (std::is_same_v<T, bool>) {
     node.text = value ? "true" : "false";
   } else if constexpr (std::is_arithmetic_v<T>) {
-    std::array<char, 32> digits;  // the shortest that read back as the same number
-    node.text.assign(digits.data(), std::to_chars(digits.begin(), digits.end(), value).ptr);
+    node.text = number_text(value);
   } else {
     node.text = value;
   }
@@ -79,16 +77,14 @@ ConfigNode to_config(T value) {
 /// One number as it stands in a file or flag; throws std::invalid_argument naming source and field.
 template <typename T>
 T number_from_config(const ConfigNode& node, std::string_view name) {
-  T number{};
-  const char* end = node.text.data() + node.text.size();
-  const auto [stop, error] = std::from_chars(node.text.data(), end, number);
-  if (error != std::errc{} || stop != end) {
+  const std::optional<T> number = parse_number<T>(node.text);
+  if (!number) {
     detail::fail_to_read(node, name,
                          std::is_floating_point_v<T> ? "a number"
                          : std::is_signed_v<T>       ? "a whole number"
                                                      : "a whole number, 0 or more");
   }
-  return number;
+  return *number;
 }
 
 template <NamedEnum T>

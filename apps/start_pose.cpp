@@ -1,12 +1,12 @@
 #include "apps/start_pose.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "motion/angles.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc {
 namespace {
@@ -21,12 +21,11 @@ std::vector<double> numbers_in(std::string_view text) {
   std::vector<double> numbers;
   for (std::string_view rest = text;;) {
     const std::string_view word = rest.substr(0, rest.find(','));
-    double number = 0.0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(number)) {
+    const std::optional<double> number = parse_number<double>(word);
+    if (!number || !std::isfinite(*number)) {
       fail(text, "'" + std::string(word) + "' is no number");
     }
-    numbers.push_back(number);
+    numbers.push_back(*number);
     if (word.size() == rest.size()) {
       return numbers;
     }

@@ -12,12 +12,6 @@ namespace {
 
 constexpr int kMeanShiftSteps = 4;
 
-float turn_between(float a_rad, float b_rad) {
-  constexpr float kTurn = 2.0F * std::numbers::pi_v<float>;
-  const float difference = a_rad - b_rad;
-  return difference - kTurn * std::nearbyint(difference / kTurn);
-}
-
 /// Weighted sums of the particles around a place; offsets from it, so that float suffices.
 struct Sums {
   double weight = 0.0;
@@ -35,7 +29,7 @@ void for_each_near(const ParticleSet& particles, const Eigen::Vector3f& place, f
     if (dx * dx + dy * dy > radius_px * radius_px) {
       continue;
     }
-    const float turn_rad = turn_between(particles.heading_rad[i], place.z());
+    const float turn_rad = wrap_rad(particles.heading_rad[i] - place.z());
     if (std::abs(turn_rad) <= radius_rad) {
       visit(i, Eigen::Vector3f(dx, dy, turn_rad));
     }

@@ -8,6 +8,7 @@
 #include "datasets/io/detail/columns.hpp"
 #include "datasets/io/detail/limits.hpp"
 #include "datasets/io/detail/whole_lines.hpp"
+#include "motion/number_text.hpp"
 #include "motion/trajectory.hpp"
 
 namespace sketchloc {
@@ -50,7 +51,7 @@ std::vector<float> read_ranges(Columns& columns) {
                     std::to_string(beam), "the line is too short: complete it or remove it");
     }
     const std::string_view column = columns.text("range");
-    const std::optional<double> range_m = parse_number(column);
+    const std::optional<double> range_m = parse_number<double>(column);
     if (!is_within(range_m, kMostRange_m)) {
       fail_expected(columns.place(), "range " + std::to_string(beam), number_within(kMostRange_m),
                     in_quotes(column), "correct the value or remove the line");

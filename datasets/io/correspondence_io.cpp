@@ -2,13 +2,11 @@
 
 #include <map>
 
-#include "datasets/io/detail/csv_table.hpp"
+#include "datasets/io/csv_table.hpp"
 #include "motion/check.hpp"
 
 namespace sketchloc {
 namespace {
-
-using detail::CsvRow;
 
 /// The points of one match in one picture.
 struct PointSum {
@@ -42,7 +40,7 @@ std::vector<Correspondence> read_correspondences(const std::filesystem::path& cs
     check(size.width_px > 0 && size.height_px > 0, "a picture has a size");
   }
   std::map<std::size_t, Match> matches;
-  detail::for_each_csv_row(csv, {"match", "drawing", "row", "column"}, [&](const CsvRow& row) {
+  for_each_csv_row(csv, {"match", "drawing", "row", "column"}, [&](const CsvRow& row) {
     Match& match = matches[row.index("match")];
     const bool of_model = row.choice("drawing", {"sketch", "model"}) == 1;
     PointSum& points = of_model ? match.in_model : match.in_sketch;

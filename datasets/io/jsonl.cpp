@@ -9,8 +9,8 @@
 #include "datasets/io/detail/columns.hpp"
 #include "datasets/io/detail/json_fields.hpp"
 #include "datasets/io/detail/limits.hpp"
-#include "datasets/io/detail/number_text.hpp"
 #include "datasets/io/detail/whole_lines.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc {
 namespace detail {

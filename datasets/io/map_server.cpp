@@ -1,12 +1,15 @@
 #include <yaml-cpp/yaml.h>
 
+#include <opencv2/core.hpp>
 #include <string>
 
 #include "datasets/io/detail/columns.hpp"
 #include "datasets/io/detail/file_bytes.hpp"
 #include "datasets/io/detail/picture.hpp"
 #include "datasets/io/detail/place.hpp"
+#include "datasets/io/image_rows.hpp"
 #include "datasets/io/sketch_io.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc {
 namespace {
@@ -42,7 +45,7 @@ class MapFields {
 
   double number(const char* field, double low, double high) const {
     const std::string value = text(field);
-    const std::optional<double> number = detail::parse_number(value);
+    const std::optional<double> number = parse_number<double>(value);
     if (!number || !(*number >= low && *number <= high)) {
       detail::fail_expected(place_of(root_[field]), field,
                             "a number from " + std::to_string(low) + " to " + std::to_string(high),
@@ -136,7 +139,7 @@ Sketch read_map_server(const std::filesystem::path& yaml, const SketchReading& r
     detail::fail({.file = map.picture},
                  "map: expected occupied cells, found none; check negate and occupied_thresh");
   }
-  return {.occupied = detail::grid_of(occupied),
+  return {.occupied = mask_from_image(occupied),
           .kind = Sketch::Kind::Strokes,
           .px_per_m = 1.0 / map.resolution_m_per_px};
 }

@@ -1,15 +1,14 @@
 #include "datasets/io/reference_io.hpp"
 
 #include "datasets/io/atomic_file.hpp"
-#include "datasets/io/detail/csv_table.hpp"
+#include "datasets/io/csv_table.hpp"
 #include "datasets/io/detail/limits.hpp"
-#include "datasets/io/detail/number_text.hpp"
 #include "motion/check.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc {
 namespace {
 
-using detail::CsvRow;
 using detail::kMostAngle_rad;
 using detail::kMostPosition_m;
 using detail::kMostPosition_px;
@@ -38,7 +37,7 @@ void append_row(std::string& text, const ReferencePose& pose, int sketch_height_
        {pose.time_s, sketch_from_robot.x() - 0.5, sketch_height_px - 0.5 - sketch_from_robot.y(),
         heading_image_rad, heading_image_rad, sketch_from_robot.scale(), pose.uncertainty_m}) {
     text += ',';
-    detail::append_number(text, value);
+    append_number(text, value);
   }
   text += pose.scored ? ",nan,nan,1,1,nan\n" : ",nan,nan,0,0,nan\n";
 }
@@ -46,8 +45,8 @@ void append_row(std::string& text, const ReferencePose& pose, int sketch_height_
 template <typename Pose>
 void append_in_order(std::vector<Pose>& poses, Pose pose, const CsvRow& row) {
   if (!poses.empty() && pose.step <= poses.back().step) {
-    detail::fail_expected(row.place(), "t_index", "more than " + std::to_string(poses.back().step),
-                          std::to_string(pose.step), "put the rows in order, one for each scan");
+    row.fail("t_index", "more than " + std::to_string(poses.back().step),
+             "put the rows in order, one for each scan");
   }
   poses.push_back(std::move(pose));
 }
@@ -57,7 +56,7 @@ void append_in_order(std::vector<Pose>& poses, Pose pose, const CsvRow& row) {
 Reference read_reference(const std::filesystem::path& csv, int sketch_height_px) {
   check(sketch_height_px > 0, "a drawing has a height");
   Reference reference;
-  detail::for_each_csv_row(
+  for_each_csv_row(
       csv,
       {"t_index", "t", "sketch_x_px", "sketch_y_px", "heading_rigid_rad", "local_scale_px_per_m",
        "loo_uncertainty_m", "in_image", "in_hull"},
@@ -79,7 +78,7 @@ std::vector<AlternativePose> read_alternative(const std::filesystem::path& csv,
                                               int sketch_height_px) {
   check(sketch_height_px > 0, "a drawing has a height");
   std::vector<AlternativePose> poses;
-  detail::for_each_csv_row(
+  for_each_csv_row(
       csv,
       {"t_index", "t", "sketch_x_px", "sketch_y_px", "heading_rad", "local_scale_px_per_m",
        "distance_to_A_px"},

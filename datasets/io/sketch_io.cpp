@@ -3,6 +3,7 @@
 #include "datasets/io/detail/ink.hpp"
 #include "datasets/io/detail/picture.hpp"
 #include "datasets/io/detail/place.hpp"
+#include "datasets/io/image_rows.hpp"
 #include "motion/validate.hpp"
 
 namespace sketchloc {
@@ -22,7 +23,7 @@ Sketch read_sketch(const std::filesystem::path& picture, const SketchReading& re
                  "drawing: expected strokes or painted free space, found a blank picture; raise "
                  "the contrast, or give polarity and kind");
   }
-  return {.occupied = detail::grid_of(ink.occupied), .kind = ink.kind, .px_per_m = std::nullopt};
+  return {.occupied = mask_from_image(ink.occupied), .kind = ink.kind, .px_per_m = std::nullopt};
 }
 
 Sketch read_any_drawing(const std::filesystem::path& drawing, const SketchReading& reading) {

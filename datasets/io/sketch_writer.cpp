@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/io/atomic_file.hpp"
+#include "datasets/io/image_rows.hpp"
 #include "motion/check.hpp"
 
 namespace sketchloc {
@@ -18,13 +19,10 @@ constexpr std::uint8_t kInk = 0;
 constexpr std::uint8_t kFaintInk = 120;
 constexpr int kWide_px = 1200;  ///< pictures are enlarged up to about this side
 
-/// Row 0 of an image is at the top, row 0 of a sketch at the bottom.
 cv::Mat1b image_of(const Sketch& sketch, std::uint8_t ink) {
-  cv::Mat1b image(sketch.height_px(), sketch.width_px());
-  for (int row = 0; row < sketch.height_px(); ++row) {
-    std::ranges::transform(sketch.occupied.row(row), image[sketch.height_px() - 1 - row],
-                           [ink](std::uint8_t cell) { return cell != 0 ? ink : kPaper; });
-  }
+  cv::Mat1b image = image_from_grid(sketch.occupied);
+  std::ranges::transform(image, image.begin(),
+                         [ink](std::uint8_t cell) { return cell != 0 ? ink : kPaper; });
   return image;
 }
 

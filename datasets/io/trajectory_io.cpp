@@ -7,7 +7,7 @@
 #include "datasets/io/detail/columns.hpp"
 #include "datasets/io/detail/limits.hpp"
 #include "datasets/io/detail/line_reader.hpp"
-#include "datasets/io/detail/number_text.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc {
 namespace {
@@ -49,11 +49,11 @@ Stamped<Se2> parse_pose(std::string_view line, const Place& place) {
 
 void append_line(std::string& text, double time_s, const Eigen::Vector2d& position,
                  double yaw_rad) {
-  detail::append_number(text, time_s);
+  append_number(text, time_s);
   for (const double value : {position.x(), position.y(), 0.0, 0.0, 0.0, std::sin(yaw_rad / 2.0),
                              std::cos(yaw_rad / 2.0)}) {
     text += ' ';
-    detail::append_number(text, value);
+    append_number(text, value);
   }
   text += '\n';
 }

@@ -7,20 +7,13 @@
 
 #include "motion/angles.hpp"
 #include "motion/check.hpp"
+#include "motion/quantile.hpp"
 
 namespace sketchloc {
 namespace {
 
 constexpr double kSpacing_m = 0.2;     ///< of the places that are compared
 constexpr double kLagTolerance = 0.2;  ///< of distances, relative
-
-double quantile(const std::vector<double>& sorted, double share) {
-  const double position = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(position);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  const double weight = position - static_cast<double>(below);
-  return (1.0 - weight) * sorted[below] + weight * sorted[above];
-}
 
 /// Residuals of the best similarity, in metres at its scale.
 std::vector<Eigen::Vector2d> residuals_m(std::span<const DrawnPlace> places) {
@@ -102,7 +95,8 @@ Quantiles rotation_quantiles(std::span<const DrawnPlace> places) {
 Quantiles quantiles(std::vector<double> values) {
   check(!values.empty(), "quantiles need a value");
   std::sort(values.begin(), values.end());
-  return {quantile(values, 0.05), quantile(values, 0.5), quantile(values, 0.95)};
+  return {quantile_of_sorted(values, 0.05), quantile_of_sorted(values, 0.5),
+          quantile_of_sorted(values, 0.95)};
 }
 
 DrawingStatistics measure_drawing(std::span<const DrawnPlace> drive) {

@@ -6,29 +6,13 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
+#include "datasets/io/image_rows.hpp"
 #include "motion/check.hpp"
 
 namespace sketchloc::detail {
 namespace {
 
 constexpr double kWhite = 255.0;
-
-/// Top row first, as OpenCV wants it.
-cv::Mat1b image_of(const Grid<std::uint8_t>& grey) {
-  cv::Mat1b image(grey.height(), grey.width());
-  for (int row = 0; row < grey.height(); ++row) {
-    std::ranges::copy(grey.row(row), image[grey.height() - 1 - row]);
-  }
-  return image;
-}
-
-Grid<std::uint8_t> grid_of(const cv::Mat1b& image) {
-  Grid<std::uint8_t> grey(image.cols, image.rows);
-  for (int row = 0; row < grey.height(); ++row) {
-    std::copy_n(image[grey.height() - 1 - row], grey.width(), grey.row(row).begin());
-  }
-  return grey;
-}
 
 /// Averages, then darkens by as much as averaging pales a line of one pixel.
 cv::Mat1b reduced(const cv::Mat1b& image, const cv::Size& size) {
@@ -53,7 +37,7 @@ cv::Mat1b cut_out(const Grid<std::uint8_t>& grey, const View& view) {
   cv::Mat1b image(wanted.size(), static_cast<std::uint8_t>(kWhite));
   const cv::Rect there = wanted & whole;
   if (!there.empty()) {
-    image_of(grey)(there).copyTo(image(there - low));
+    image_from_grid(grey)(there).copyTo(image(there - low));
   }
   return image;
 }
@@ -66,11 +50,11 @@ Grid<std::uint8_t> zoomed(const Grid<std::uint8_t>& grey, const View& view, doub
   const cv::Size size(std::max(1, cvRound(zoom * view.width())),
                       std::max(1, cvRound(zoom * view.height())));
   if (zoom < 1.0) {
-    return grid_of(reduced(image, size));
+    return grid_from_image(reduced(image, size));
   }
   cv::Mat1b larger;
   cv::resize(image, larger, size, 0.0, 0.0, cv::INTER_LINEAR);
-  return grid_of(larger);
+  return grid_from_image(larger);
 }
 
 std::string encode_png(const Grid<std::uint8_t>& grey, int longest_px) {
@@ -79,7 +63,7 @@ std::string encode_png(const Grid<std::uint8_t>& grey, int longest_px) {
   }
   const double zoom = static_cast<double>(longest_px) / std::max(grey.width(), grey.height());
   const View whole{.low = {0.0, 0.0}, .high = {grey.width(), grey.height()}};
-  const cv::Mat1b image = image_of(zoom < 1.0 ? zoomed(grey, whole, zoom) : grey);
+  const cv::Mat1b image = image_from_grid(zoom < 1.0 ? zoomed(grey, whole, zoom) : grey);
   std::vector<std::uint8_t> bytes;
   check(cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9}),
         "a grey image can be encoded as PNG");

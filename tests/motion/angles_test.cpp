@@ -16,6 +16,14 @@ TEST(WrapRad, LeavesAnglesInRangeAlone) {
   }
 }
 
+TEST(WrapRad, WrapsFloatsLikeDoubles) {
+  constexpr float kFloatPi = std::numbers::pi_v<float>;
+  EXPECT_EQ(wrap_rad(-kFloatPi), kFloatPi);
+  for (const float angle_rad : {0.0F, 1.0F, -3.0F, 3.1F, 3.2F, -3.2F, 7.0F, -100.0F}) {
+    EXPECT_NEAR(wrap_rad(angle_rad), wrap_rad(static_cast<double>(angle_rad)), 2e-5);
+  }
+}
+
 TEST(WrapRad, TurnsMinusPiIntoPi) { EXPECT_EQ(wrap_rad(-kPi), kPi); }
 
 TEST(WrapRad, TakesWholeTurnsAway) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -29,6 +30,11 @@ TEST(Validate, NamesFieldRangeAndValue) {
             "slip_m_per_m must be finite and at least 0, but it is -0.1");
   EXPECT_EQ(error_of([] { require_above("scale", 0.0, 0.0); }),
             "scale must be finite and above 0, but it is 0");
+}
+
+TEST(Validate, PrintsValuesThatAreNearlyInRangeWithAllTheirDigits) {
+  EXPECT_EQ(error_of([] { require_in_range("share", std::nextafter(1.0, 2.0), 0.0, 1.0); }),
+            "share must be in [0, 1], but it is 1.0000000000000002");
 }
 
 TEST(Validate, AcceptsTheEndsOfARange) {

@@ -1,10 +1,9 @@
 #include "datasets/io/detail/columns.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <string>
 
-#include "datasets/io/detail/number_text.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc::detail {
 namespace {
@@ -22,26 +21,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(0, last == std::string_view::npos ? 0 : last + 1);
 }
 
-template <typename Number>
-std::optional<Number> parse_all(std::string_view text) {
-  if (text.starts_with('+') && !text.starts_with("+-")) {
-    text.remove_prefix(1);  // from_chars knows no plus sign
-  }
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) {
-    return std::nullopt;
-  }
-  return number;
-}
-
 }  // namespace
-
-std::optional<double> parse_number(std::string_view text) { return parse_all<double>(text); }
-
-std::optional<std::int64_t> parse_integer(std::string_view text) {
-  return parse_all<std::int64_t>(text);
-}
 
 bool is_within(const std::optional<double>& value, double limit) {
   return value && std::abs(*value) <= limit;  // false for NaN
@@ -94,7 +74,7 @@ std::string_view Columns::text(std::string_view field) {
 
 double Columns::number(std::string_view field, double limit) {
   const std::string_view column = text(field);
-  const std::optional<double> value = parse_number(column);
+  const std::optional<double> value = parse_number<double>(column);
   if (!is_within(value, limit)) {
     fail_expected(*place_, field, number_within(limit), in_quotes(column),
                   "correct the value or remove the line");
@@ -104,7 +84,7 @@ double Columns::number(std::string_view field, double limit) {
 
 std::int64_t Columns::integer(std::string_view field, std::int64_t low, std::int64_t high) {
   const std::string_view column = text(field);
-  const std::optional<std::int64_t> number = parse_integer(column);
+  const std::optional<std::int64_t> number = parse_number<std::int64_t>(column);
   if (!number || *number < low || *number > high) {
     fail_expected(*place_, field,
                   "an integer from " + std::to_string(low) + " to " + std::to_string(high),

@@ -9,11 +9,6 @@
 
 namespace sketchloc::detail {
 
-/// The whole text as a number, in the C locale whatever the program's; none if it is not one.
-/// "nan" and "inf" are numbers here.
-std::optional<double> parse_number(std::string_view text);
-std::optional<std::int64_t> parse_integer(std::string_view text);
-
 /// Is it a number, and in [-limit, limit]? And the words for that.
 bool is_within(const std::optional<double>& value, double limit);
 std::string number_within(double limit);

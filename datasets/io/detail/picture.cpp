@@ -153,16 +153,4 @@ cv::Mat read_picture(const std::filesystem::path& file, std::size_t max_pixels) 
   return to_8_bits(picture);
 }
 
-Grid<std::uint8_t> grid_of(const cv::Mat1b& occupied) {
-  Grid<std::uint8_t> grid(occupied.cols, occupied.rows);
-  for (int row = 0; row < occupied.rows; ++row) {
-    const unsigned char* from = occupied.ptr(occupied.rows - 1 - row);
-    const std::span<std::uint8_t> to = grid.row(row);
-    for (std::size_t column = 0; column < to.size(); ++column) {
-      to[column] = from[column] != 0 ? 1 : 0;
-    }
-  }
-  return grid;
-}
-
 }  // namespace sketchloc::detail

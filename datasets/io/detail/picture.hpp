@@ -7,8 +7,6 @@
 #include <optional>
 #include <span>
 
-#include "datasets/grid.hpp"
-
 namespace sketchloc::detail {
 
 /// Width and height as the head of a PNG, JPEG or PNM file states them; none for anything else.
@@ -18,9 +16,5 @@ std::optional<cv::Size> picture_size(std::span<const unsigned char> bytes);
 /// Decodes PNG, JPEG or PNM to 8 bits, with 1 (grey), 3 (BGR) or 4 (BGRA) channels. Throws with the
 /// file and the reason.
 cv::Mat read_picture(const std::filesystem::path& file, std::size_t max_pixels);
-
-/// The one place where the rows of a picture (top first) become rows of a drawing (bottom first): 1
-/// where the mask is not 0.
-Grid<std::uint8_t> grid_of(const cv::Mat1b& occupied);
 
 }  // namespace sketchloc::detail

@@ -75,7 +75,7 @@ TEST_F(ReferenceCsv, NamesLineAndColumnOfAnError) {
   EXPECT_THAT(reading("0,0,0,0,0,0,1,0,0,1,2,1,0\n"), FailsWith("in_image: expected 0 or 1"));
   EXPECT_THAT(reading("-1,0,0,0,0,0,1,0,0,1,1,1,0\n"), FailsWith("t_index: expected an integer"));
   EXPECT_THAT(reading("1,0,0,0,0,0,1,0,0,1,1,1,0\n1,0,0,0,0,0,1,0,0,1,1,1,0\n"),
-              FailsWith("ref.csv:3: t_index: expected more than 1, found 1"));
+              FailsWith("ref.csv:3: t_index: expected more than 1, found \"1\""));
 }
 
 TEST_F(ReferenceCsv, NamesTheColumnThatIsMissing) {

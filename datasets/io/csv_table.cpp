@@ -1,13 +1,19 @@
-#include "datasets/io/detail/csv_table.hpp"
+#include "datasets/io/csv_table.hpp"
 
 #include <algorithm>
-#include <sstream>
+#include <cmath>
+#include <optional>
+#include <vector>
 
+#include "datasets/io/detail/columns.hpp"
 #include "datasets/io/detail/line_reader.hpp"
 #include "motion/check.hpp"
+#include "motion/number_text.hpp"
 
-namespace sketchloc::detail {
+namespace sketchloc {
 namespace {
+
+using namespace detail;
 
 constexpr const char* kWhatToDo = "correct the value";
 
@@ -20,11 +26,10 @@ std::vector<std::string_view> split(std::string_view line, const Place& place) {
   return values;
 }
 
-std::vector<std::string> read_header(LineReader& lines,
-                                     std::initializer_list<std::string_view> columns) {
+std::vector<std::string> read_header(LineReader& lines, std::span<const std::string_view> columns) {
   const std::optional<std::string_view> line = lines.next();
   if (!line || line->empty()) {
-    fail(
+    detail::fail(
         {.file = lines.place().file, .line = 1},
         "header: expected a line with the names of the columns, found nothing; is the file empty?");
   }
@@ -47,7 +52,7 @@ std::string_view CsvRow::text(std::string_view column) const {
 }
 
 double CsvRow::number(std::string_view column, double limit) const {
-  const std::optional<double> value = parse_number(text(column));
+  const std::optional<double> value = parse_number<double>(text(column));
   if (!is_within(value, limit)) {
     fail_expected(*place_, column, number_within(limit), in_quotes(text(column)), kWhatToDo);
   }
@@ -71,21 +76,35 @@ double CsvRow::at_least_zero(std::string_view column, double limit) const {
 }
 
 std::size_t CsvRow::index(std::string_view column) const {
-  const std::optional<std::int64_t> number = parse_integer(text(column));
+  const std::optional<std::int64_t> number = parse_number<std::int64_t>(text(column));
   if (!number || *number < 0) {
     fail_expected(*place_, column, "an integer from 0 on", in_quotes(text(column)), kWhatToDo);
   }
   return static_cast<std::size_t>(*number);
 }
 
+std::size_t CsvRow::count(std::string_view column) const {
+  constexpr double kMost = 9007199254740992.0;  // up to here a double counts
+  const std::optional<double> number = parse_number<double>(text(column));
+  if (!number || !(*number >= 0.0 && *number <= kMost) || *number != std::floor(*number)) {
+    fail_expected(*place_, column, "a whole number from 0 to " + number_text(std::int64_t{1} << 53),
+                  in_quotes(text(column)), kWhatToDo);
+  }
+  return static_cast<std::size_t>(*number);
+}
+
 double CsvRow::within(std::string_view column, double low, double high) const {
-  const std::optional<double> value = parse_number(text(column));
+  const std::optional<double> value = parse_number<double>(text(column));
   if (!value || !(*value >= low && *value <= high)) {
-    std::ostringstream range;
-    range << "a number in [" << low << ", " << high << "]";
-    fail_expected(*place_, column, range.str(), in_quotes(text(column)), kWhatToDo);
+    const std::string range = "a number in [" + number_text(low) + ", " + number_text(high) + "]";
+    fail_expected(*place_, column, range, in_quotes(text(column)), kWhatToDo);
   }
   return *value;
+}
+
+void CsvRow::fail(std::string_view column, std::string_view expected,
+                  std::string_view what_to_do) const {
+  fail_expected(*place_, column, expected, in_quotes(text(column)), what_to_do);
 }
 
 bool CsvRow::flag(std::string_view column) const { return choice(column, {"0", "1"}) == 1; }
@@ -104,8 +123,7 @@ std::size_t CsvRow::choice(std::string_view column,
   return static_cast<std::size_t>(found - words.begin());
 }
 
-void for_each_csv_row(const std::filesystem::path& csv,
-                      std::initializer_list<std::string_view> columns,
+void for_each_csv_row(const std::filesystem::path& csv, std::span<const std::string_view> columns,
                       const std::function<void(const CsvRow&)>& take) {
   LineReader lines(csv);
   const std::vector<std::string> header = read_header(lines, columns);
@@ -124,8 +142,8 @@ void for_each_csv_row(const std::filesystem::path& csv,
   }
   lines.expect_whole();
   if (rows == 0) {
-    fail(lines.place(), "rows: expected at least one after the header, found none");
+    detail::fail(lines.place(), "rows: expected at least one after the header, found none");
   }
 }
 
-}  // namespace sketchloc::detail
+}  // namespace sketchloc
