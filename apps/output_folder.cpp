@@ -1,13 +1,13 @@
 #include "apps/output_folder.hpp"
 
-#include <stdlib.h>
 #include <sys/stat.h>
 
-#include <cerrno>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <utility>
 
+#include "datasets/io/make_beside.hpp"
 #include "motion/check.hpp"
 
 namespace sketchloc {
@@ -32,26 +32,48 @@ void require_replaceable(const fs::path& target, bool force) {
 }
 
 /// A new empty folder beside `target`, on the same file system, readable like any other.
-fs::path make_beside(const fs::path& target) {
+fs::path make_folder_beside(const fs::path& target) {
   fs::create_directories(target.parent_path());
-  std::string name =
-      (target.parent_path() / ("." + target.filename().string() + ".XXXXXX")).string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    throw std::system_error(errno, std::generic_category(),
-                            "cannot write beside " + target.string());
+  return make_beside(target, [](const char* name) { return ::mkdir(name, 0777); });
+}
+
+/// Without a slash at the end; where it is a link, what that points to.
+fs::path resolved(const fs::path& target) {
+  const fs::path plain = fs::absolute(target / "").parent_path().lexically_normal();
+  return fs::is_symlink(plain) && fs::exists(plain) ? fs::canonical(plain) : plain;
+}
+
+/// Renames `whole`, in place of a `target` that is there; if that fails, the target stays.
+std::error_code take_name(const fs::path& whole, const fs::path& target) {
+  std::error_code error;
+  std::error_code ignored;
+  if (!fs::exists(whole)) {
+    return std::make_error_code(std::errc::no_such_file_or_directory);
   }
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::chmod(name.c_str(), 0777 & ~mask);  // mkdtemp makes it private
-  return name;
+  if (!fs::exists(target)) {
+    fs::rename(whole, target, error);
+    return error;
+  }
+  const fs::path old = make_folder_beside(target);
+  fs::rename(target, old, error);  // replaces the empty folder just made
+  if (error) {
+    fs::remove(old, ignored);
+    return error;
+  }
+  fs::rename(whole, target, error);
+  if (error) {
+    fs::rename(old, target, ignored);
+  } else {
+    fs::remove_all(old, ignored);
+  }
+  return error;
 }
 
 }  // namespace
 
-OutputFolder::OutputFolder(const fs::path& target, bool force)
-    : target_(fs::absolute(target / "").parent_path().lexically_normal()) {
+OutputFolder::OutputFolder(const fs::path& target, bool force) : target_(resolved(target)) {
   require_replaceable(target_, force);
-  staging_ = make_beside(target_);
+  staging_ = make_folder_beside(target_);
 }
 
 OutputFolder::~OutputFolder() {
@@ -63,15 +85,11 @@ OutputFolder::~OutputFolder() {
 
 void OutputFolder::commit() {
   check(!staging_.empty(), "an output folder is committed once");
-  fs::path old;
-  if (fs::exists(target_)) {
-    old = make_beside(target_);
-    fs::rename(target_, old);  // replaces the empty folder just made
+  const fs::path whole = std::exchange(staging_, {});  // kept from now on, whatever happens
+  if (const std::error_code error = take_name(whole, target_)) {
+    throw std::runtime_error("the results cannot take the name " + target_.string() + " (" +
+                             error.message() + "); they are whole in " + whole.string());
   }
-  fs::rename(staging_, target_);
-  staging_.clear();
-  std::error_code ignored;
-  fs::remove_all(old, ignored);
 }
 
 }  // namespace sketchloc

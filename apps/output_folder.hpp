@@ -10,7 +10,7 @@ class OutputFolder {
  public:
   /// Throws std::invalid_argument where `target` exists and may not be replaced: never without
   /// `force`, and with it only a folder that holds an earlier result (a run.yaml). An empty folder
-  /// may always be replaced.
+  /// may always be replaced. Where `target` is a link to a folder, that folder is meant.
   OutputFolder(const std::filesystem::path& target, bool force);
   ~OutputFolder();
   OutputFolder(const OutputFolder&) = delete;
@@ -22,7 +22,9 @@ class OutputFolder {
   }
   const std::filesystem::path& target() const { return target_; }
 
-  /// Gives the folder its name. Checks that it was not called before.
+  /// Gives the folder its name. Checks that it was not called before. Throws std::runtime_error
+  /// where the system refuses: then an earlier result stands as it did, and the new one stays whole
+  /// in the hidden folder that the message names.
   void commit();
 
  private:

@@ -6,30 +6,42 @@
 
 #include <cerrno>
 #include <cstring>
+#include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "datasets/io/detail/place.hpp"
+#include "datasets/io/make_beside.hpp"
 
 namespace sketchloc {
 namespace {
 
-[[noreturn]] void fail_to_write(const std::filesystem::path& file, std::string_view step) {
-  const int reason = errno;
+[[noreturn]] void fail_to_write(const std::filesystem::path& file, std::string_view step,
+                                int reason = errno) {
   detail::fail({.file = file},
                "cannot be written, " + std::string(step) + ": " + std::strerror(reason));
+}
+
+/// The permissions of the file that is to be replaced; none: there is no file yet.
+std::optional<mode_t> mode_of(const std::filesystem::path& file) {
+  struct stat status {};
+  return ::stat(file.c_str(), &status) == 0 ? std::optional(status.st_mode & 0777) : std::nullopt;
 }
 
 /// A temporary file beside its target, gone unless it was moved there.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(std::filesystem::path target) : target_(std::move(target)) {
-    std::filesystem::path pattern = target_;
-    pattern += ".XXXXXX";
-    name_ = pattern.string();
-    descriptor_ = ::mkstemp(name_.data());
-    if (descriptor_ < 0) {
-      fail_to_write(target_, "making a temporary file beside it");
+  explicit TemporaryFile(std::filesystem::path target)
+      : target_(std::move(target)), replaced_mode_(mode_of(target_)) {
+    const auto make = [this](const char* name) {
+      constexpr int kFlags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+      return descriptor_ = ::open(name, kFlags, replaced_mode_.value_or(0666));
+    };
+    try {
+      name_ = make_beside(target_, make).string();
+    } catch (const std::system_error& error) {
+      fail_to_write(target_, "making a temporary file beside it", error.code().value());
     }
   }
   TemporaryFile(const TemporaryFile&) = delete;
@@ -54,7 +66,8 @@ class TemporaryFile {
   }
 
   void move_to_target() {
-    if (::fchmod(descriptor_, mode_for_target()) != 0 || ::fsync(descriptor_) != 0) {
+    const bool same_mode = !replaced_mode_ || ::fchmod(descriptor_, *replaced_mode_) == 0;
+    if (!same_mode || ::fsync(descriptor_) != 0) {
       fail_to_write(target_, "flushing to the disk");
     }
     if (::close(std::exchange(descriptor_, -1)) != 0) {
@@ -67,18 +80,8 @@ class TemporaryFile {
   }
 
  private:
-  /// As an ordinary new file gets it, or as the file that is replaced has it.
-  mode_t mode_for_target() const {
-    struct stat status {};
-    if (::stat(target_.c_str(), &status) == 0) {
-      return status.st_mode & 0777;
-    }
-    const mode_t mask = ::umask(0);
-    ::umask(mask);
-    return 0666 & ~mask;
-  }
-
   std::filesystem::path target_;
+  std::optional<mode_t> replaced_mode_;
   std::string name_;
   int descriptor_ = -1;
   bool moved_ = false;

@@ -1,6 +1,8 @@
 #include "apps/output_folder.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <stdexcept>
@@ -11,6 +13,7 @@ namespace sketchloc {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::HasSubstr;
 
 class OutputFolderTest : public ::testing::Test {
  protected:
@@ -92,10 +95,58 @@ TEST_F(OutputFolderTest, MakesTheFoldersAboveAndTakesATrailingSlash) {
   EXPECT_TRUE(fs::is_directory(folder_ / "a/b/c"));
 }
 
+TEST_F(OutputFolderTest, ReplacesTheFolderThatALinkPointsTo) {
+  make_result("first");
+  const fs::path link = folder_ / "link";
+  fs::create_directory_symlink(target_, link);
+  OutputFolder output(link, true);
+  std::ofstream(output / "run.yaml") << "second";
+  output.commit();
+  EXPECT_EQ(result(), "second");
+  EXPECT_TRUE(fs::is_symlink(link));
+  EXPECT_EQ(entries(), 2U);
+}
+
+/// What commit() says where it fails.
+std::string commit_error(OutputFolder& output) {
+  try {
+    output.commit();
+  } catch (const std::runtime_error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST_F(OutputFolderTest, KeepsTheNewResultWhereItsNameIsTakenMeanwhile) {
+  fs::path staging;
+  {
+    OutputFolder output(target_, false);
+    staging = (output / "run.yaml").parent_path();
+    std::ofstream(output / "run.yaml") << "new";
+    std::ofstream(target_) << "a file";
+    EXPECT_THAT(commit_error(output), HasSubstr("they are whole in " + staging.string()));
+  }
+  EXPECT_TRUE(fs::is_regular_file(target_));
+  EXPECT_TRUE(fs::exists(staging / "run.yaml"));
+  EXPECT_EQ(entries(), 2U);
+}
+
+TEST_F(OutputFolderTest, PutsTheEarlierResultBackWhereTheNewOneIsGone) {
+  make_result("first");
+  OutputFolder output(target_, true);
+  fs::remove_all((output / "run.yaml").parent_path());
+  EXPECT_THAT(commit_error(output), HasSubstr("cannot take the name"));
+  EXPECT_EQ(result(), "first");
+  EXPECT_EQ(entries(), 1U);
+}
+
 TEST_F(OutputFolderTest, IsReadableLikeAnyOtherFolder) {
+  const mode_t before = ::umask(0027);
   OutputFolder(target_, false).commit();
   fs::create_directory(folder_ / "other");
   EXPECT_EQ(fs::status(target_).permissions(), fs::status(folder_ / "other").permissions());
+  EXPECT_EQ(fs::status(target_).permissions(), fs::perms(0750));
+  ::umask(before);
 }
 
 }  // namespace

@@ -2,6 +2,10 @@
 
 #include <sys/stat.h>
 
+#include <string>
+#include <thread>
+#include <vector>
+
 #include "tests/datasets/io/files.hpp"
 
 namespace sketchloc {
@@ -34,6 +38,25 @@ TEST_F(WriteAtomically, ReplacesAFileAndKeepsItsMode) {
   write_atomically(path, "new");
   EXPECT_EQ(content_of(path), "new");
   EXPECT_EQ(std::filesystem::status(path).permissions(), std::filesystem::perms(0640));
+}
+
+TEST_F(WriteAtomically, KeepsToTheMaskOfTheUserOnEveryThread) {
+  const mode_t before = ::umask(0077);
+  {
+    std::vector<std::jthread> threads;
+    for (int thread = 0; thread < 4; ++thread) {
+      threads.emplace_back([this, thread] {
+        for (int i = 0; i < 50; ++i) {
+          write_atomically(missing(std::to_string(thread) + "-" + std::to_string(i)), "x");
+        }
+      });
+    }
+  }
+  EXPECT_EQ(::umask(before), 0077U);
+  EXPECT_EQ(files_in_folder(), 200U);
+  for (const auto& entry : std::filesystem::directory_iterator(folder())) {
+    EXPECT_EQ(entry.status().permissions(), std::filesystem::perms(0600)) << entry.path();
+  }
 }
 
 TEST_F(WriteAtomically, SaysPathAndReasonWhereTheFolderIsMissing) {
