@@ -4,8 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <queue>
-#include <tuple>
+#include <utility>
 
 #include "motion/check.hpp"
 #include "motion/detail/complex_plane.hpp"
@@ -44,83 +43,34 @@ template class Trajectory<Sim2>;
 
 namespace {
 
-/// All times of two lists in one order, linked, so that matched ones can be taken out. The closest
-/// pair from different lists is always a pair of neighbours here.
-class MergedTimes {
- public:
-  MergedTimes(std::span<const double> first_s, std::span<const double> second_s) {
-    for (std::size_t i = 0; i < first_s.size(); ++i) {
-      nodes_.push_back({.time_s = first_s[i], .index = i, .of_first = true});
-    }
-    for (std::size_t i = 0; i < second_s.size(); ++i) {
-      nodes_.push_back({.time_s = second_s[i], .index = i, .of_first = false});
-    }
-    std::ranges::stable_sort(nodes_, {}, &Node::time_s);
-    for (std::size_t i = 0; i < nodes_.size(); ++i) {
-      nodes_[i].before = i == 0 ? kNone : i - 1;
-      nodes_[i].after = i + 1 == nodes_.size() ? kNone : i + 1;
-    }
-  }
-
-  /// Pairs each time with its nearest, closest pairs first.
-  std::vector<std::pair<std::size_t, std::size_t>> take_pairs(double max_gap_s) {
-    for (std::size_t i = 0; i + 1 < nodes_.size(); ++i) {
-      propose(i, i + 1, max_gap_s);
-    }
-    std::vector<std::pair<std::size_t, std::size_t>> pairs;
-    while (!proposals_.empty()) {
-      const auto [gap_s, left, right] = proposals_.top();
-      proposals_.pop();
-      if (nodes_[left].taken || nodes_[right].taken) {
-        continue;
-      }
-      const bool in_order = nodes_[left].of_first;
-      pairs.emplace_back(nodes_[in_order ? left : right].index,
-                         nodes_[in_order ? right : left].index);
-      take(left, right, max_gap_s);
-    }
-    std::ranges::sort(pairs);
-    return pairs;
-  }
-
- private:
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-  struct Node {
-    double time_s = 0.0;
-    std::size_t index = 0;
-    bool of_first = false;
-    bool taken = false;
-    std::size_t before = kNone;
-    std::size_t after = kNone;
-  };
-  using Proposal = std::tuple<double, std::size_t, std::size_t>;  // gap_s, left, right
-
-  void propose(std::size_t left, std::size_t right, double max_gap_s) {
-    const double gap_s = nodes_[right].time_s - nodes_[left].time_s;
-    if (nodes_[left].of_first != nodes_[right].of_first && gap_s <= max_gap_s) {
-      proposals_.emplace(gap_s, left, right);
-    }
-  }
-
-  /// Takes two neighbours out; the ones outside become neighbours.
-  void take(std::size_t left, std::size_t right, double max_gap_s) {
-    nodes_[left].taken = nodes_[right].taken = true;
-    const std::size_t before = nodes_[left].before;
-    const std::size_t after = nodes_[right].after;
-    if (before != kNone) {
-      nodes_[before].after = after;
-    }
-    if (after != kNone) {
-      nodes_[after].before = before;
-    }
-    if (before != kNone && after != kNone) {
-      propose(before, after, max_gap_s);
-    }
-  }
-
-  std::vector<Node> nodes_;
-  std::priority_queue<Proposal, std::vector<Proposal>, std::greater<>> proposals_;
+/// A time of one of two lists.
+struct ListedTime {
+  double time_s = 0.0;
+  std::size_t among_equals = 0;  ///< how many of its list are equal and before it
+  std::size_t index = 0;
+  bool of_first = false;
 };
+
+void append(std::vector<ListedTime>& merged, std::span<const double> times_s, bool of_first) {
+  std::size_t equals = 0;
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    equals = i > 0 && times_s[i] == times_s[i - 1] ? equals + 1 : 0;
+    merged.push_back(
+        {.time_s = times_s[i], .among_equals = equals, .index = i, .of_first = of_first});
+  }
+}
+
+/// Both lists in the order of time, those at one time by turns.
+std::vector<ListedTime> merged_times(std::span<const double> first_s,
+                                     std::span<const double> second_s) {
+  std::vector<ListedTime> merged;
+  append(merged, first_s, true);
+  append(merged, second_s, false);
+  std::ranges::stable_sort(merged, {}, [](const ListedTime& listed) {
+    return std::pair(listed.time_s, listed.among_equals);
+  });
+  return merged;
+}
 
 }  // namespace
 
@@ -129,7 +79,28 @@ std::vector<std::pair<std::size_t, std::size_t>> match_by_time(std::span<const d
                                                                double max_gap_s) {
   check(std::ranges::is_sorted(first_s) && std::ranges::is_sorted(second_s),
         "times to match must not decrease");
-  return MergedTimes(first_s, second_s).take_pairs(max_gap_s);
+  const std::vector<ListedTime> merged = merged_times(first_s, second_s);
+  // A pair around another one would cross it, so only neighbours can be pairs.
+  std::vector<std::pair<double, std::size_t>> proposals;  // gap, left one of the neighbours
+  for (std::size_t i = 0; i + 1 < merged.size(); ++i) {
+    const double gap_s = merged[i + 1].time_s - merged[i].time_s;
+    if (merged[i].of_first != merged[i + 1].of_first && gap_s <= max_gap_s) {
+      proposals.emplace_back(gap_s, i);
+    }
+  }
+  std::ranges::sort(proposals);
+  std::vector<bool> taken(merged.size(), false);
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (const auto& [gap_s, left] : proposals) {
+    if (!taken[left] && !taken[left + 1]) {
+      taken[left] = taken[left + 1] = true;
+      const bool in_order = merged[left].of_first;
+      pairs.emplace_back(merged[in_order ? left : left + 1].index,
+                         merged[in_order ? left + 1 : left].index);
+    }
+  }
+  std::ranges::sort(pairs);
+  return pairs;
 }
 
 namespace {

@@ -49,7 +49,8 @@ extern template class Trajectory<Se2>;
 extern template class Trajectory<Sim2>;
 
 /// Index pairs (first, second) of times that lie closest together, at most max_gap_s apart, each
-/// used once, closest pairs first served. Checks that neither list decreases.
+/// used once, closest pairs first served; no two pairs cross, so that the later of the first list
+/// has the later of the second. Checks that neither list decreases.
 std::vector<std::pair<std::size_t, std::size_t>> match_by_time(std::span<const double> first_s,
                                                                std::span<const double> second_s,
                                                                double max_gap_s);

@@ -70,19 +70,23 @@ TEST(TrajectoryDeathTest, RefusesTimesThatDoNotIncrease) {
 
 // ---- match_by_time -------------------------------------------------------------------------
 
-/// The slow, obvious way: again and again the closest pair of all that are left.
+/// The slow, obvious way: again and again the closest pair of all that are left and cross no other.
 Pairs match_slowly(const std::vector<double>& first_s, const std::vector<double>& second_s,
                    double max_gap_s) {
   std::vector<bool> first_used(first_s.size());
   std::vector<bool> second_used(second_s.size());
   Pairs pairs;
+  const auto crosses = [&pairs](std::size_t i, std::size_t j) {
+    return std::ranges::any_of(
+        pairs, [&](const auto& pair) { return (pair.first < i) != (pair.second < j); });
+  };
   while (true) {
     double best_gap_s = max_gap_s;
     std::optional<std::pair<std::size_t, std::size_t>> best;
     for (std::size_t i = 0; i < first_s.size(); ++i) {
       for (std::size_t j = 0; j < second_s.size(); ++j) {
         const double gap_s = std::abs(first_s[i] - second_s[j]);
-        if (!first_used[i] && !second_used[j] && gap_s <= best_gap_s) {
+        if (!first_used[i] && !second_used[j] && gap_s <= best_gap_s && !crosses(i, j)) {
           best_gap_s = gap_s;
           best = {i, j};
         }
@@ -107,6 +111,19 @@ TEST(MatchByTime, UsesEachTimeOnceAndServesTheClosestFirst) {
   const std::vector<double> first_s = {1.0, 1.3};
   const std::vector<double> second_s = {1.2};
   EXPECT_THAT(match_by_time(first_s, second_s, 1.0), ElementsAre(Pair(1u, 0u)));
+}
+
+TEST(MatchByTime, NeverLetsPairsCross) {
+  const std::vector<double> first_s = {0.0, 1.0};
+  const std::vector<double> second_s = {0.9, 2.0};
+  EXPECT_THAT(match_by_time(first_s, second_s, 2.0), ElementsAre(Pair(1u, 0u)));
+}
+
+TEST(MatchByTime, PairsEqualTimesInTheirOrder) {
+  const std::vector<double> first_s = {1.0, 1.0, 1.0, 2.0};
+  const std::vector<double> second_s = {1.0, 1.0, 2.0};
+  EXPECT_THAT(match_by_time(first_s, second_s, 0.5),
+              ElementsAre(Pair(0u, 0u), Pair(1u, 1u), Pair(3u, 2u)));
 }
 
 TEST(MatchByTime, AllowsTheGapItselfAndNothingBeyond) {
