@@ -13,7 +13,7 @@ namespace sketchloc {
 /// How ranges are kept in one byte each.
 struct RangeTableParams {
   double min_range_px = 0.5;  ///< the least range there is, > 0; nearer ones count as this
-  double log_step = 0.03;     ///< of log(range) between two codes, in [0.005, 0.1]
+  double log_step = 0.03;     ///< of log(range) between two codes, in [0.025, 0.1]
   double memory_mb = 160.0;   ///< budget; a larger drawing gets coarser cells, > 0
 };
 

@@ -166,6 +166,28 @@ TEST(BeamKernel, ReadsAnyKernelAndEachKindOfBeamWithItsOwn) {
               3 * rounding);
 }
 
+TEST(BeamKernel, HoldsLargeStrainsAndScalesAtTheFinestStepOfTheTable) {
+  Grid<std::uint8_t> occupied(200, 5);
+  occupied.at({150, 2}) = 1;
+  for (const double log_step : {0.025, 0.03, 0.1}) {
+    const RangeTable table(occupied, {.log_step = log_step});
+    const BeamKernel kernel(
+        table, [](double d) { return 2.0 + d; }, [](double) { return 0.0; });
+    for (const float strain : {-1.5F, -1.0F, 0.0F, 0.7F, 1.5F}) {
+      for (const float px_per_m : {1.0F, 20.0F, 500.0F}) {
+        ParticleCloud cloud;
+        cloud.add(50.5F, 2.5F, 0.0F, px_per_m);  // expects 99.5 px
+        cloud.axial_strain = {strain};
+        cloud.diagonal_strain = {0.0F};
+        const Beam beam{.bearing_rad = 0.0F, .range_m = 110.0F / px_per_m / std::exp(strain)};
+        EXPECT_NEAR(score(kernel, cloud.spans(), {{beam}})[0], 2.0 + std::log(110.0 / 99.5),
+                    1.6 * log_step)
+            << "step " << log_step << ", strain " << strain << ", scale " << px_per_m;
+      }
+    }
+  }
+}
+
 TEST(BeamKernel, TakesNoBeamsAndNoParticles) {
   const RangeTable table(testing::rooms(60, 60, 20, 4));
   const BeamKernel kernel(table, BeamKernelParams{});

@@ -162,6 +162,7 @@ TEST(RangeTable, RefusesParametersOutOfRange) {
   const Grid<std::uint8_t> occupied(3, 3);
   EXPECT_THROW(RangeTable(occupied, {.min_range_px = 0.0}), std::invalid_argument);
   EXPECT_THROW(RangeTable(occupied, {.log_step = 0.5}), std::invalid_argument);
+  EXPECT_THROW(RangeTable(occupied, {.log_step = 0.02}), std::invalid_argument);
   EXPECT_THROW(RangeTable(occupied, {.memory_mb = -1.0}), std::invalid_argument);
 }
 
