@@ -40,26 +40,23 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-void add_errors(Json& json, const SketchErrors& errors) {
-  json["scored_poses"] = errors.scored;
-  json["share_within_1_m"] = errors.share_within_1_m;
-  json["share_within_2_m"] = errors.share_within_2_m;
-  json["share_within_reference_2_sigma"] = errors.share_within_uncertainty;
-  json["translation_error_m"] = json_of(errors.translation_m);
-  json["translation_error_px"] = json_of(errors.translation_px);
-  json["heading_error_deg"] = json_in_degrees(errors.heading_rad);
-  json["median_scale_ratio"] = errors.median_scale_ratio;
-  json["lost_at_end"] = errors.lost_at_end;
-  json["first_loss_s"] = or_null(errors.first_loss_s);
-  json["position_nees"] = json_of(errors.position_nees);
-}
-
-void add_missing_errors(Json& json) {
-  json["scored_poses"] = 0;
-  for (const char* key : {"share_within_1_m", "share_within_2_m", "translation_error_m",
-                          "heading_error_deg", "lost_at_end", "first_loss_s"}) {
-    json[key] = nullptr;
-  }
+/// One list of keys, with and without errors.
+void add_errors(Json& json, const std::optional<SketchErrors>& errors) {
+  const auto add = [&](const char* key, const auto& value_in) {
+    json[key] = errors ? Json(value_in(*errors)) : Json(nullptr);
+  };
+  using Errors = const SketchErrors&;
+  json["scored_poses"] = errors ? errors->scored : 0;
+  add("share_within_1_m", [](Errors e) { return e.share_within_1_m; });
+  add("share_within_2_m", [](Errors e) { return e.share_within_2_m; });
+  add("share_within_reference_2_sigma", [](Errors e) { return e.share_within_uncertainty; });
+  add("translation_error_m", [](Errors e) { return json_of(e.translation_m); });
+  add("translation_error_px", [](Errors e) { return json_of(e.translation_px); });
+  add("heading_error_deg", [](Errors e) { return json_in_degrees(e.heading_rad); });
+  add("median_scale_ratio", [](Errors e) { return e.median_scale_ratio; });
+  add("lost_at_end", [](Errors e) { return e.lost_at_end; });
+  add("first_loss_s", [](Errors e) { return or_null(e.first_loss_s); });
+  add("position_nees", [](Errors e) { return json_of(e.position_nees); });
 }
 
 Json json_of(const RelativeErrors& relative) {
@@ -87,11 +84,8 @@ constexpr int kIndent = 2;
 std::string to_json(const RunMetrics& metrics) {
   Json json;
   json["poses"] = metrics.poses;
-  if (metrics.errors && metrics.errors->scored > 0) {
-    add_errors(json, *metrics.errors);
-  } else {
-    add_missing_errors(json);
-  }
+  const bool measured = metrics.errors && metrics.errors->scored > 0;
+  add_errors(json, measured ? metrics.errors : std::nullopt);
   json["seconds"] = metrics.cost ? Json(metrics.cost->seconds) : Json(nullptr);
   json["peak_memory_mb"] = metrics.cost ? Json(metrics.cost->peak_memory_mb) : Json(nullptr);
   return json.dump(kIndent) + "\n";

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 
 namespace sketchloc {
 namespace {
@@ -42,13 +43,20 @@ TEST(RunMetricsJson, HasTheKeysThatScriptsRead) {
   EXPECT_DOUBLE_EQ(parsed.at("peak_memory_mb"), 40.0);
 }
 
-TEST(RunMetricsJson, IsNullWhereThereWasNoReference) {
-  const json parsed = json::parse(to_json(RunMetrics{.poses = 9, .errors = {}, .cost = {}}));
-  for (const char* key : {"share_within_1_m", "share_within_2_m", "translation_error_m",
-                          "heading_error_deg", "lost_at_end", "first_loss_s", "seconds"}) {
-    EXPECT_TRUE(parsed.at(key).is_null()) << key;
+TEST(RunMetricsJson, HasTheSameKeysWithNullWhereThereWasNoReference) {
+  const json full =
+      json::parse(to_json(RunMetrics{.poses = 9, .errors = some_errors(), .cost = {}}));
+  for (const std::optional<SketchErrors>& nothing :
+       {std::optional<SketchErrors>(), std::optional(SketchErrors{})}) {
+    const json parsed = json::parse(to_json(RunMetrics{.poses = 9, .errors = nothing, .cost = {}}));
+    EXPECT_EQ(parsed.size(), full.size());
+    for (const auto& [key, value] : full.items()) {
+      ASSERT_TRUE(parsed.contains(key)) << key;
+      EXPECT_TRUE(parsed.at(key).is_null() || key == "poses" || key == "scored_poses") << key;
+    }
+    EXPECT_EQ(parsed.at("poses"), 9);
+    EXPECT_EQ(parsed.at("scored_poses"), 0);
   }
-  EXPECT_EQ(parsed.at("poses"), 9);
 }
 
 TEST(TrajectoryMetricsJson, HasTheAbsoluteErrorsOfEveryAlignment) {
