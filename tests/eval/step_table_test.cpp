@@ -46,20 +46,34 @@ TEST_F(StepTable, ReadsBackWhatWasWritten) {
   }
 }
 
-TEST_F(StepTable, OfNothingIsItsHeader) { EXPECT_TRUE(read_back(step_table_csv({})).empty()); }
+TEST_F(StepTable, ReadsWholeNumbersInEveryForm) {
+  std::vector<StepReport> steps(steps_.begin(), steps_.begin() + 1);
+  steps[0].step = 100'000;
+  const std::string written = step_table_csv(steps);
+  EXPECT_THAT(written, HasSubstr("\n100000,"));
+  std::string short_form = written;
+  short_form.replace(short_form.find("\n100000,") + 1, 6, "1e+05");
+  EXPECT_EQ(read_back(short_form).at(0).step, 100'000U);
+}
 
 TEST_F(StepTable, SaysWhatIsWrongAndWhere) {
   const std::string good = step_table_csv(std::span(steps_).first(2));
   const auto fails_with = [&](const std::string& text, const std::string& message) {
     EXPECT_THAT([&] { read_back(text); }, ThrowsMessage<std::runtime_error>(HasSubstr(message)));
   };
-  fails_with("a,b\n", "trajectory.csv:1: expected the header");
-  fails_with(good + "1,2,3\n", "trajectory.csv:4: expected 23 columns");
+  fails_with("a,b\n", "trajectory.csv:1: header: expected one column \"step\"");
+  fails_with(step_table_csv({}), "rows: expected at least one");
+  fails_with(good + "1,2,3\n", "trajectory.csv:4: columns: expected 23 as in the header");
   fails_with(good.substr(0, good.size() - 10) + "x\n", "trajectory.csv:3:");
-  fails_with(good + good.substr(good.find('\n') + 1), "trajectory.csv:4: step: expected whole");
+  fails_with(good + good.substr(good.find('\n') + 1), "trajectory.csv:4: step: expected more than");
   std::string nan = good;
   nan.replace(nan.find("\n1,") + 3, 1, "nan");
   fails_with(nan, "time_s: expected a number");
+  for (const char* step : {"1e300", "-1", "1.5", "nan", "inf", "18446744073709551616"}) {
+    std::string wrong = good;
+    wrong.replace(wrong.find("\n1,") + 1, 1, step);
+    fails_with(wrong, "step: expected a whole number from 0 to 9007199254740992");
+  }
 }
 
 TEST_F(StepTable, SaysThatAFileIsMissing) {
