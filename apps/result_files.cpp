@@ -1,8 +1,12 @@
 #include "apps/result_files.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <exception>
+#include <functional>
+#include <string>
 
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/trajectory_io.hpp"
@@ -25,6 +29,16 @@ SketchTrajectory trajectory_of(const std::vector<StepReport>& steps) {
     }
   }
   return trajectory;
+}
+
+/// What cannot be drawn must not cost the figures.
+void write_for_people(const OutputFolder& out, const std::string& name,
+                      const std::function<std::string()>& content) {
+  try {
+    write_atomically(out / name, content());
+  } catch (const std::exception& error) {
+    spdlog::warn("{} is missing: {}", name, error.what());
+  }
 }
 
 }  // namespace
@@ -61,9 +75,9 @@ void write_result_files(const OutputFolder& out, const RunRecord& record,
   write_tum(out / "trajectory.tum", trajectory_of(record.steps));
   write_atomically(out / "trajectory.csv", step_table_csv(record.steps));
   write_atomically(out / "metrics.json", to_json(measure_run(record)));
-  write_atomically(out / "report.html", report_html(record));
-  write_atomically(out / "picture.png", picture_png(record));
   write_atomically(out / "run.yaml", run_file_text(description));
+  write_for_people(out, "report.html", [&] { return report_html(record); });
+  write_for_people(out, "picture.png", [&] { return picture_png(record); });
 }
 
 std::string summary_text(const RunRecord& record) {

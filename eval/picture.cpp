@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "datasets/io/image_rows.hpp"
 #include "eval/detail/raster.hpp"
 #include "eval/detail/run_picture.hpp"
 #include "eval/detail/verdict.hpp"
@@ -48,16 +49,48 @@ cv::Point sub_pixel(const cv::Point2d& point) {
 }
 
 cv::Mat3b paper_image(const Sketch& sketch, const Frame& frame) {
-  const Grid<std::uint8_t> grey = detail::zoomed(detail::paper(sketch), frame.view, frame.zoom);
-  cv::Mat3b image(grey.height(), grey.width());
-  for (int row = 0; row < grey.height(); ++row) {
-    std::ranges::transform(grey.row(row), image[grey.height() - 1 - row],
-                           [](std::uint8_t value) { return cv::Vec3b(value, value, value); });
-  }
+  cv::Mat3b image;
+  cv::cvtColor(image_from_grid(detail::zoomed(detail::paper(sketch), frame.view, frame.zoom)),
+               image, cv::COLOR_GRAY2BGR);
   return image;
 }
 
 using ImageLine = std::vector<cv::Point2d>;
+
+/// The part of a segment in [0, size] along one axis, as shares of its length; empty: low > high.
+void cut(double from, double to, double size, double& low, double& high) {
+  if (from == to) {
+    high = from < 0.0 || from > size ? -1.0 : high;
+    return;
+  }
+  const double at_zero = -from / (to - from);
+  const double at_size = (size - from) / (to - from);
+  low = std::max(low, std::min(at_zero, at_size));
+  high = std::min(high, std::max(at_zero, at_size));
+}
+
+/// The parts of a line in the picture: OpenCV's positions have 32 bits, and dashes cost memory.
+std::vector<ImageLine> inside(const ImageLine& line, const cv::Size& size) {
+  std::vector<ImageLine> parts;
+  bool goes_on = false;
+  for (std::size_t i = 1; i < line.size(); ++i) {
+    const cv::Point2d way = line[i] - line[i - 1];
+    double low = 0.0;
+    double high = 1.0;
+    cut(line[i - 1].x, line[i].x, size.width, low, high);
+    cut(line[i - 1].y, line[i].y, size.height, low, high);
+    if (low > high) {
+      goes_on = false;
+      continue;
+    }
+    if (!goes_on || low > 0.0) {
+      parts.push_back({line[i - 1] + low * way});
+    }
+    parts.back().push_back(line[i - 1] + high * way);
+    goes_on = high == 1.0;
+  }
+  return parts;
+}
 
 /// The parts of a line that are drawn when every other `dash` of its length is left out.
 std::vector<ImageLine> dashes(const ImageLine& line, double dash) {
@@ -101,8 +134,8 @@ void draw_layer(cv::Mat3b& image, const PathLayer& layer, const Frame& frame) {
     ImageLine line;
     std::ranges::transform(polyline, std::back_inserter(line),
                            [&](const Eigen::Vector2d& point) { return frame.at(point); });
-    if (!line.empty()) {
-      draw_line(image, line, layer);
+    for (const ImageLine& part : inside(line, image.size())) {
+      draw_line(image, part, layer);
     }
   }
 }
@@ -132,8 +165,13 @@ void draw_ends(cv::Mat3b& image, const RunRecord& record, const Frame& frame) {
   if (record.steps.empty()) {
     return;
   }
-  const cv::Point start = frame.at(record.steps.front().estimate.sketch_from_robot.translation());
-  const cv::Point end = frame.at(record.steps.back().estimate.sketch_from_robot.translation());
+  const auto place_of = [&](const StepReport& report) {  // at the edge where it is outside
+    const cv::Point2d place = frame.at(report.estimate.sketch_from_robot.translation());
+    return cv::Point(cv::Point2d(std::clamp(place.x, 0.0, image.cols - 1.0),
+                                 std::clamp(place.y, 0.0, image.rows - 1.0)));
+  };
+  const cv::Point start = place_of(record.steps.front());
+  const cv::Point end = place_of(record.steps.back());
   cv::circle(image, start, kRadius_px, {255, 255, 255}, cv::FILLED, cv::LINE_AA);
   cv::circle(image, start, kRadius_px, bgr(kText), 3, cv::LINE_AA);
   const cv::Point corner(kRadius_px, kRadius_px);

@@ -32,7 +32,7 @@ std::optional<Sim2> referenced(const RunRecord& record, const Moment& moment) {
 std::string label_at(const View& view, const Eigen::Vector2d& point, const std::string& css_class,
                      const std::string& text) {
   const Eigen::Vector2d percent_there =
-      100.0 * (point - view.low).cwiseQuotient(view.high - view.low);
+      (100.0 * (point - view.low).array() / (view.high - view.low).array()).max(0.0).min(100.0);
   return "<span class=\"" + css_class + "\" style=\"left:" + fixed(percent_there.x(), 2) +
          "%;bottom:" + fixed(percent_there.y(), 2) + "%\">" + text + "</span>";
 }

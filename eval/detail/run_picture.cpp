@@ -141,10 +141,16 @@ std::string hex(const Colour& colour) {
 }
 
 View whole_view(const RunRecord& record, std::span<const PathLayer> layers) {
+  constexpr double kMostBeyond = 0.5;  // of the drawing's size: an estimate may leave it for good
   View view = content_view(record.sketch);
+  const double beyond = kMostBeyond * std::max(view.width(), view.height());
+  const Eigen::Array2d lowest = view.low.array() - beyond;
+  const Eigen::Array2d highest = view.high.array() + beyond;
   for (const PathLayer& layer : layers) {
     for (const Polyline& line : layer.lines) {
-      std::ranges::for_each(line, [&](const Eigen::Vector2d& point) { extend(view, point); });
+      std::ranges::for_each(line, [&](const Eigen::Vector2d& point) {
+        extend(view, point.array().max(lowest).min(highest));
+      });
     }
   }
   constexpr double kMargin = 0.03;

@@ -49,7 +49,8 @@ struct View {
   double height() const { return high.y() - low.y(); }
 };
 
-/// All strokes and paths with a margin.
+/// All strokes and paths with a margin; of paths that leave the drawing no more than half of its
+/// size beyond its edges.
 View whole_view(const RunRecord& record, std::span<const PathLayer> layers);
 
 /// Reference first, estimate on top. The estimate is coloured by its error where there is a

@@ -43,6 +43,18 @@ TEST(Picture, OfAnEmptyRunIsStillAPicture) {
   EXPECT_FALSE(decoded(picture_png(RunRecord{})).empty());
 }
 
+TEST(Picture, OfAnEstimateFarOffTheSheetKeepsToTheDrawing) {
+  RunRecord record = make_synthetic_run(Outcome::Located);
+  for (const double far_px : {1e5, 1e9, 1e15}) {
+    StepReport& last = record.steps.back();
+    last.estimate.sketch_from_robot = Sim2::from_xy_yaw_scale(far_px, -far_px, 0.0, 20.0);
+    const auto layers = detail::path_layers(record, step_errors(record));
+    const detail::View view = detail::whole_view(record, layers);
+    EXPECT_LT(view.width(), 2.2 * std::max(record.sketch.width_px(), record.sketch.height_px()));
+    EXPECT_GT(count_of(decoded(picture_png(record)), detail::kGood), 1000);
+  }
+}
+
 TEST(RunPicture, CutsThePathWhereTheEstimateJumps) {
   const RunRecord record = make_synthetic_run(Outcome::Recovered);
   const auto layers = detail::path_layers(record, step_errors(record));
