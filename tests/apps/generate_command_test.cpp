@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <filesystem>
 #include <fstream>
@@ -80,6 +81,9 @@ TEST(GenerateEndToEnd, DrawsTheTrueMapWithItsScaleWhereNobodyDraws) {
   ASSERT_EQ(generate({"--out", folder / "set", "--person", "none"}).exit_code, 0);
   const Sketch sketch = read_any_drawing(folder / "set" / "drawing.yaml");
   EXPECT_DOUBLE_EQ(sketch.px_per_m.value(), 20.0);
+  const YAML::Node origin = YAML::LoadFile(folder / "set" / "drawing.yaml")["origin"];
+  ASSERT_TRUE(origin.IsSequence());
+  EXPECT_EQ(origin.as<std::vector<double>>(), std::vector<double>(3, 0.0));
 }
 
 TEST(GenerateEndToEnd, DrivesThroughAMapOfARealBuilding) {
