@@ -1,11 +1,13 @@
 #include "datasets/io/corrected_poses.hpp"
 
 #include <cstddef>
+#include <limits>
 #include <string>
 
 #include "datasets/io/detail/columns.hpp"
 #include "datasets/io/detail/limits.hpp"
 #include "datasets/io/detail/whole_lines.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc {
 namespace {
@@ -36,12 +38,16 @@ MetricTrajectory read_corrected_poses(const std::filesystem::path& log) {
       return;
     }
     const Stamped<Se2> corrected = parse_corrected(columns);
-    if (!world_from_robot.empty() &&
-        !(corrected.time_s > world_from_robot[world_from_robot.size() - 1].time_s)) {
-      fail_expected(place, "time", "a time after that of the scan before",
-                    std::to_string(corrected.time_s), "remove the line");
+    const double last_s = world_from_robot.empty()
+                              ? -std::numeric_limits<double>::infinity()
+                              : world_from_robot[world_from_robot.size() - 1].time_s;
+    if (corrected.time_s < last_s) {
+      fail_expected(place, "time", "at least " + number_text(last_s) + ", as of the scan before",
+                    number_text(corrected.time_s), "remove the line");
     }
-    world_from_robot.append(corrected.time_s, corrected.pose);
+    if (corrected.time_s > last_s) {
+      world_from_robot.append(corrected.time_s, corrected.pose);
+    }
   });
   if (world_from_robot.empty()) {
     fail({.file = lines.place().file}, "scans: expected lines that start with FLASER, found none");

@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "datasets/io/corrected_poses.hpp"
 #include "datasets/io/run_io.hpp"
 #include "tests/datasets/io/files.hpp"
 #include "tests/support/matchers.hpp"
@@ -123,6 +124,19 @@ TEST_F(Carmen, NamesFileLineFieldAndWhatItFound) {
 TEST_F(Carmen, NamesTheScanWhoseTimeGoesBack) {
   EXPECT_THAT(reading("FLASER 1 1 0 0 0 0 0 0 5 h 1\nFLASER 1 1 0 0 0 0 0 0 4 h 1\n"),
               FailsWith("run.log:2: time: expected at least the 5.000000 s"));
+}
+
+TEST_F(Carmen, GivesTheFirstCorrectedPoseOfEachTime) {
+  const std::string scans =
+      "FLASER 1 1 1 2 0 0 0 0 5 h 1\nFLASER 1 1 3 4 0 0 0 0 5 h 1\nFLASER 1 1 5 6 0 0 0 0 6 h 1\n";
+  const MetricTrajectory corrected = read_corrected_poses(file("run.log", scans));
+  ASSERT_EQ(corrected.size(), 2U);
+  EXPECT_EQ(corrected[0].pose.x_m(), 1.0);
+  EXPECT_EQ(corrected[1].pose.x_m(), 5.0);
+  EXPECT_EQ(read(scans).run.steps.size(), 3U);  // the same rule: times must not decrease
+  const std::filesystem::path back = file("back.log", scans + "FLASER 1 1 5 6 0 0 0 0 5.5 h 1\n");
+  EXPECT_THAT([&] { read_corrected_poses(back); },
+              FailsWith("back.log:4: time: expected at least 6, as of the scan before, found 5.5"));
 }
 
 TEST_F(Carmen, RefusesACountThatIsNotThere) {
