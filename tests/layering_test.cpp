@@ -3,10 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <fstream>
+#include <sstream>
+
 namespace sketchloc::testing {
 
 void PrintTo(const LayeringViolation& violation, std::ostream* out) {
   *out << violation.file << ":" << violation.line << ": " << violation.what;
+}
+
+void PrintTo(const FloorPlanRow& row, std::ostream* out) {
+  *out << row.folder << " | " << row.may_include << " | " << row.libraries;
 }
 
 namespace {
@@ -15,6 +23,7 @@ using ::testing::ElementsAre;
 using ::testing::Field;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::UnorderedElementsAreArray;
 
 const std::filesystem::path kRoot = SKETCHLOC_SOURCE_DIR;
 
@@ -28,6 +37,33 @@ MATCHER_P2(Breaks, line, rule, "") {
 }
 
 TEST(Layering, HoldsInTheWholeProject) { EXPECT_THAT(layering_violations(kRoot), IsEmpty()); }
+
+std::string trimmed(const std::string& cell) {
+  const std::size_t first = cell.find_first_not_of(" `/");
+  return first == cell.npos ? "" : cell.substr(first, cell.find_last_not_of(" `/") + 1 - first);
+}
+
+/// The rows of the first table whose first column is a folder.
+std::vector<FloorPlanRow> documented_rows() {
+  std::ifstream document(kRoot / "docs/architecture.md");
+  std::vector<FloorPlanRow> rows;
+  for (std::string line; std::getline(document, line);) {
+    if (!line.starts_with("| `")) {
+      continue;
+    }
+    std::istringstream cells(line.substr(1));
+    std::array<std::string, 4> row;
+    for (std::string& cell : row) {
+      std::getline(cells, cell, '|');
+    }
+    rows.push_back({trimmed(row[0]), trimmed(row[2]), trimmed(row[3])});
+  }
+  return rows;
+}
+
+TEST(Layering, IsTheTableOfTheArchitecture) {
+  EXPECT_THAT(documented_rows(), UnorderedElementsAreArray(floor_plan_rows()));
+}
 
 TEST(Layering, LetsArrowsPointDown) {
   EXPECT_THAT(violations_of("#include \"motion/se2.hpp\"\n#include \"datasets/grid.hpp\"\n",
@@ -60,10 +96,10 @@ TEST(Layering, FindsDetailsUsedFromOutside) {
 
 TEST(Layering, FindsAHeavyLibraryInAPublicHeader) {
   const std::string_view source = "#pragma once\n#  include <opencv2/imgproc.hpp>\n";
-  EXPECT_THAT(violations_of(source, "registration/raster.hpp"),
+  EXPECT_THAT(violations_of(source, "eval/raster.hpp"),
               ElementsAre(Breaks(2, "public headers include only")));
-  EXPECT_THAT(violations_of(source, "registration/raster.cpp"), IsEmpty());
-  EXPECT_THAT(violations_of(source, "registration/detail/raster.hpp"), IsEmpty());
+  EXPECT_THAT(violations_of(source, "eval/raster.cpp"), IsEmpty());
+  EXPECT_THAT(violations_of(source, "eval/detail/raster.hpp"), IsEmpty());
 }
 
 TEST(Layering, FindsALibraryInAFolderThatDoesNotUseIt) {

@@ -1,11 +1,21 @@
 #pragma once
 
+#include <compare>
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sketchloc::testing {
+
+/// One folder of the floor plan, in the words of the table in docs/architecture.md.
+struct FloorPlanRow {
+  std::string folder;
+  std::string may_include;
+  std::string libraries;
+  auto operator<=>(const FloorPlanRow&) const = default;
+};
+std::vector<FloorPlanRow> floor_plan_rows();
 
 /// An #include that breaks the floor plan of docs/architecture.md.
 struct LayeringViolation {
