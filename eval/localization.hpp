@@ -31,6 +31,12 @@ struct LocalizationParams {
   MatchedOdometryParams odometry;
 };
 
+template <typename Visitor>
+void visit_fields(LocalizationParams& params, Visitor&& visit) {
+  visit("localizer", params.localizer);
+  visit("odometry", params.odometry);
+}
+
 /// Throws std::invalid_argument naming the component and field, its range and its value.
 void validate(const LocalizationParams& params);
 

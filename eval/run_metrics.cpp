@@ -1,6 +1,9 @@
 #include "eval/run_metrics.hpp"
 
+#include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "motion/angles.hpp"
 
@@ -59,6 +62,53 @@ void add_errors(Json& json, const std::optional<SketchErrors>& errors) {
   add("position_nees", [](Errors e) { return json_of(e.position_nees); });
 }
 
+[[noreturn]] void fail_to_read(const std::filesystem::path& file, const std::string& what) {
+  throw std::runtime_error(file.string() + ": " + what);
+}
+
+Json parse(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream) {
+    fail_to_read(file, "cannot be read; expected the metrics.json of a run");
+  }
+  Json json = Json::parse(stream, nullptr, false);
+  if (!json.is_object()) {
+    fail_to_read(file, "is not the metrics.json of a run");
+  }
+  return json;
+}
+
+/// The value at a key, which must be there; null only where that means something.
+const Json& field(const Json& json, const std::string& key, const std::filesystem::path& file) {
+  const auto found = json.find(key);
+  if (found == json.end()) {
+    fail_to_read(file, key + " is missing; expected the metrics.json of a run in a drawing");
+  }
+  return *found;
+}
+
+double number_at(const Json& json, const std::string& key, const std::filesystem::path& file) {
+  const Json& value = field(json, key, file);
+  if (value.is_null()) {
+    fail_to_read(file, key +
+                           " is null: the run was compared with nothing; make it again with "
+                           "--reference, or evaluate it with --run");
+  }
+  if (!value.is_number()) {
+    fail_to_read(file, key + " must be a number, but it is " + value.dump());
+  }
+  return value.get<double>();
+}
+
+ErrorSummary median_at(const Json& json, const std::string& key,
+                       const std::filesystem::path& file) {
+  const Json& summary = field(json, key, file);
+  if (!summary.is_object()) {
+    fail_to_read(file, key + " must be a summary, but it is " + summary.dump());
+  }
+  return {.median = number_at(summary, "median", file)};
+}
+
 Json json_of(const RelativeErrors& relative) {
   Json json;
   if (const auto* by_frames = std::get_if<FrameDelta>(&relative.params.delta)) {
@@ -89,6 +139,26 @@ std::string to_json(const RunMetrics& metrics) {
   json["seconds"] = metrics.cost ? Json(metrics.cost->seconds) : Json(nullptr);
   json["peak_memory_mb"] = metrics.cost ? Json(metrics.cost->peak_memory_mb) : Json(nullptr);
   return json.dump(kIndent) + "\n";
+}
+
+SketchErrors read_run_errors(const std::filesystem::path& file) {
+  const Json json = parse(file);
+  SketchErrors errors;
+  errors.share_within_1_m = number_at(json, "share_within_1_m", file);
+  errors.share_within_2_m = number_at(json, "share_within_2_m", file);
+  errors.scored =
+      static_cast<std::size_t>(std::clamp(number_at(json, "scored_poses", file), 0.0, 1e15));
+  errors.translation_m = median_at(json, "translation_error_m", file);
+  errors.heading_rad = scaled(median_at(json, "heading_error_deg", file), rad_from_deg(1.0));
+  if (!field(json, "first_loss_s", file).is_null()) {
+    errors.first_loss_s = number_at(json, "first_loss_s", file);
+  }
+  const Json& lost = field(json, "lost_at_end", file);
+  if (!lost.is_boolean()) {
+    fail_to_read(file, "lost_at_end must be true or false, but it is " + lost.dump());
+  }
+  errors.lost_at_end = lost.get<bool>();
+  return errors;
 }
 
 TrajectoryMetrics measure_trajectory(const MetricTrajectory& reference,

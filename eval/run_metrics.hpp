@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,11 @@ struct RunMetrics {
 
 /// The text of `metrics.json`, see docs/metrics.md; null where nothing could be measured.
 std::string to_json(const RunMetrics& metrics);
+
+/// What a metrics.json of a run says about its errors: the shares within 1 m and 2 m, the medians,
+/// the loss and the scored poses. Throws std::runtime_error with file and key where one is missing
+/// or the run had no reference.
+SketchErrors read_run_errors(const std::filesystem::path& json);
 
 /// Relative errors over one delta.
 struct RelativeErrors {

@@ -39,11 +39,16 @@ TableCell first_loss_cell(const RunSet& set) {
   return {.value = std::isfinite(*middle) ? std::optional(*middle) : std::nullopt, .interval = {}};
 }
 
-TableCell located_cell(const RunSet& set) {
-  const auto located = static_cast<std::size_t>(
-      std::ranges::count_if(set.runs, [](const SketchErrors& run) { return !run.lost_at_end; }));
-  return {.value = static_cast<double>(located) / static_cast<double>(set.runs.size()),
-          .interval = wilson_interval(located, set.runs.size())};
+TableCell worst_cell(const RunSet& set) {
+  return {.value = std::ranges::min(set.runs, {}, &SketchErrors::share_within_2_m).share_within_2_m,
+          .interval = {}};
+}
+
+TableCell lost_cell(const RunSet& set) {
+  const auto lost =
+      static_cast<std::size_t>(std::ranges::count(set.runs, true, &SketchErrors::lost_at_end));
+  return {.value = static_cast<double>(lost) / static_cast<double>(set.runs.size()),
+          .interval = wilson_interval(lost, set.runs.size())};
 }
 
 TableRow summarize_set(const RunSet& set, Rng& rng) {
@@ -54,12 +59,13 @@ TableRow summarize_set(const RunSet& set, Rng& rng) {
               set, [](const SketchErrors& run) { return run.share_within_1_m; }, rng),
           .share_within_2_m = mean_cell(
               set, [](const SketchErrors& run) { return run.share_within_2_m; }, rng),
+          .worst_within_2_m = worst_cell(set),
           .median_error_m = mean_cell(
               set, [](const SketchErrors& run) { return run.translation_m->median; }, rng),
           .median_heading_rad = mean_cell(
               set, [](const SketchErrors& run) { return run.heading_rad->median; }, rng),
           .first_loss_s = first_loss_cell(set),
-          .share_located_at_end = located_cell(set)};
+          .share_lost_at_end = lost_cell(set)};
 }
 
 /// How a figure is printed: multiplied, with so many decimals.
@@ -96,10 +102,11 @@ const std::vector<Column>& columns() {
   static const std::vector<Column> kColumns = {
       {"within 1 m, %", &TableRow::share_within_1_m, kPercent, true},
       {"within 2 m, %", &TableRow::share_within_2_m, kPercent, true},
+      {"worst run within 2 m, %", &TableRow::worst_within_2_m, kPercent},
       {"median error, m", &TableRow::median_error_m, kMetres},
       {"median heading error, deg", &TableRow::median_heading_rad, kDegrees},
       {"first lost, s", &TableRow::first_loss_s, kSeconds},
-      {"located at the end, %", &TableRow::share_located_at_end, kPercent, true}};
+      {"lost at the end, %", &TableRow::share_lost_at_end, kPercent, true}};
   return kColumns;
 }
 

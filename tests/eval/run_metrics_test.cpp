@@ -1,14 +1,22 @@
 #include "eval/run_metrics.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/shared_data.hpp"
 
 namespace sketchloc {
 namespace {
 
 using nlohmann::json;
+using ::testing::HasSubstr;
+using ::testing::ThrowsMessage;
 
 SketchErrors some_errors() {
   const ErrorSummary summary{
@@ -57,6 +65,44 @@ TEST(RunMetricsJson, HasTheSameKeysWithNullWhereThereWasNoReference) {
     EXPECT_EQ(parsed.at("poses"), 9);
     EXPECT_EQ(parsed.at("scored_poses"), 0);
   }
+}
+
+class ReadRunErrors : public ::testing::Test {
+ protected:
+  SketchErrors read(const std::string& text) const {
+    std::ofstream(folder_ / "metrics.json") << text;
+    return read_run_errors(folder_ / "metrics.json");
+  }
+  void fails_with(const std::string& text, const std::string& message) const {
+    EXPECT_THAT([&] { read(text); },
+                ThrowsMessage<std::runtime_error>(HasSubstr("metrics.json: " + message)));
+  }
+
+  testing::TemporaryDirectory folder_;
+};
+
+TEST_F(ReadRunErrors, GivesWhatWasWritten) {
+  SketchErrors written = some_errors();
+  written.first_loss_s = 12.5;
+  written.lost_at_end = true;
+  const SketchErrors errors = read(to_json(RunMetrics{.poses = 9, .errors = written, .cost = {}}));
+  EXPECT_EQ(errors.scored, 4U);
+  EXPECT_EQ(errors.share_within_1_m, 0.75);
+  EXPECT_EQ(errors.share_within_2_m, 1.0);
+  EXPECT_EQ(errors.translation_m->median, 0.5);
+  EXPECT_NEAR(errors.heading_rad->median, 0.5, 1e-15);
+  EXPECT_EQ(errors.first_loss_s, 12.5);
+  EXPECT_TRUE(errors.lost_at_end);
+}
+
+TEST_F(ReadRunErrors, SaysWhatIsMissingOrWrong) {
+  EXPECT_THROW(read_run_errors(folder_ / "none.json"), std::runtime_error);
+  fails_with("no json", "is not the metrics.json of a run");
+  fails_with("[1]", "is not the metrics.json of a run");
+  fails_with("{}", "share_within_1_m is missing");
+  fails_with(to_json(RunMetrics{.poses = 9, .errors = {}, .cost = {}}),
+             "share_within_1_m is null: the run was compared with nothing");
+  fails_with(R"({"share_within_1_m": "all"})", "share_within_1_m must be a number");
 }
 
 TEST(TrajectoryMetricsJson, HasTheAbsoluteErrorsOfEveryAlignment) {

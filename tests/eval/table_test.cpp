@@ -39,7 +39,10 @@ TEST(ResultTable, AveragesTheRunsOfASet) {
   EXPECT_GE(rows[0].share_within_2_m.interval->low, 0.5);
   EXPECT_LE(rows[0].share_within_2_m.interval->high, 0.7);
   EXPECT_NEAR(rows[0].first_loss_s.value.value(), 30.0, 1e-12);  // 10, 30, never
-  EXPECT_NEAR(rows[0].share_located_at_end.value.value(), 1.0 / 3.0, 1e-12);
+  EXPECT_NEAR(rows[0].worst_within_2_m.value.value(), 0.5, 1e-12);
+  EXPECT_NEAR(rows[0].share_lost_at_end.value.value(), 2.0 / 3.0, 1e-12);
+  EXPECT_NEAR(rows[0].share_lost_at_end.interval->low, 0.2077, 1e-3);  // Wilson, worked by hand
+  EXPECT_NEAR(rows[0].share_lost_at_end.interval->high, 0.9385, 1e-3);
 }
 
 TEST(ResultTable, SaysNeverWhereMostRunsAreNeverLost) {
