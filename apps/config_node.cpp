@@ -139,14 +139,18 @@ ConfigNode& ConfigNode::child(std::string_view key) {
 
 ConfigNode read_config(const std::filesystem::path& path) {
   try {
-    const YAML::Node yaml = YAML::LoadFile(path.string());
+    YAML::Node yaml = YAML::LoadFile(path.string());
+    if (yaml.IsMap() && yaml["sketchloc"] && yaml["parameters"]) {  // of an earlier run
+      yaml.reset(yaml["parameters"]);
+    }
     ConfigNode node = converted(yaml, path);
     if (!yaml.IsNull() && !node.is_map) {
-      fail(node.source, "expected parameters like `seed: 1`, found only a value");
+      fail(node.source,
+           "expected parameters like `resample_below: 0.5`, in the groups that --print-parameters "
+           "shows, found only a value");
     }
     node.is_map = true;  // an empty file states nothing
-    const ConfigNode* of_a_run = node.find("sketchloc") ? node.find("parameters") : nullptr;
-    return of_a_run != nullptr ? *of_a_run : node;
+    return node;
   } catch (const YAML::BadFile&) {
     fail(path.string(), "cannot read this configuration; check the path");
   } catch (const YAML::Exception& error) {

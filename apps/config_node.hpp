@@ -23,7 +23,8 @@ struct ConfigNode {
 };
 
 /// Reads a YAML file of nested maps and values. The run.yaml of an earlier run is a configuration
-/// too: its `parameters` are taken. Throws std::invalid_argument with path and line.
+/// too: its `parameters` are taken here (its options: apps/recorded_options.hpp). Throws
+/// std::invalid_argument with path and line.
 ConfigNode read_config(const std::filesystem::path& path);
 
 /// The tree as YAML text, two spaces per level.

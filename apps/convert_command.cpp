@@ -14,6 +14,7 @@
 #include <string>
 
 #include "apps/program.hpp"
+#include "apps/read_options.hpp"
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/sketch_io.hpp"
 #include "datasets/io/sketch_writer.hpp"
@@ -109,13 +110,7 @@ void convert(const ConvertOptions& options) {
 }
 
 void add_algorithm_options(CLI::App& command, ConvertOptions& options) {
-  command.add_option("--max-range-m", options.run.max_range_m, "Longer ranges are no returns")
-      ->check(CLI::PositiveNumber)
-      ->group(kAlgorithmGroup);
-  command
-      .add_flag("--allow-truncated", options.run.allow_truncated,
-                "Keep the whole lines of a log that ends in the middle of one")
-      ->group(kAlgorithmGroup);
+  add_read_options(command, options.run);
   command.add_option("--polarity", options.polarity, "Of the drawing; else found")
       ->check(CLI::IsMember(&kPolarities))
       ->group(kAlgorithmGroup);

@@ -13,15 +13,18 @@
 
 #include "apps/config.hpp"
 #include "apps/evaluate_log.hpp"
+#include "apps/evaluate_runs.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/program.hpp"
 #include "apps/result_files.hpp"
+#include "apps/run_file.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/sketch_io.hpp"
 #include "datasets/io/trajectory_io.hpp"
 #include "eval/run_metrics.hpp"
 #include "eval/step_table.hpp"
 #include "motion/angles.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc {
 namespace {
@@ -41,6 +44,9 @@ struct EvaluateOptions {
   std::vector<std::size_t> deltas_frames = {1};
   LossDefinition loss;
   bool json = false;
+  std::vector<fs::path> runs;
+  fs::path against;
+  fs::path config;  ///< read before the command line, see apps/recorded_options.hpp
   fs::path out;
   bool force = false;
 };
@@ -128,12 +134,19 @@ Evaluation evaluate_run(const EvaluateOptions& options) {
           .json = to_json(metrics)};
 }
 
+void check_config(const fs::path& config) {
+  const auto earlier = config.empty() ? std::nullopt : read_run_description(config);
+  if (!config.empty() && (!earlier || earlier->command != "evaluate")) {
+    throw std::invalid_argument(config.string() + ": is not the run.yaml of an earlier evaluation");
+  }
+}
+
 void check_inputs(const EvaluateOptions& options) {
   const int subjects = (options.trajectory.empty() ? 0 : 1) + (options.run.empty() ? 0 : 1) +
                        (options.log.empty() ? 0 : 1);
   if (subjects != 1) {
     throw std::invalid_argument(
-        "evaluate needs one of --trajectory EST.tum, --run DIR and --log LOG");
+        "evaluate needs one of --trajectory EST.tum, --run DIR, --log LOG and --runs DIR...");
   }
   const bool log_alone = !options.log.empty() && options.map.empty();
   if (log_alone != options.reference.empty()) {
@@ -149,20 +162,32 @@ void check_inputs(const EvaluateOptions& options) {
   }
 }
 
+/// Everything that was given and that the result depends on.
 RunDescription description_of(const EvaluateOptions& options) {
   RunDescription description{
-      .command = "evaluate", .seed = 0, .inputs = {}, .parameters = {.is_map = true}};
-  const auto add = [&](const std::string& flag, const fs::path& file) {
-    if (!file.empty()) {
-      description.inputs.emplace_back(flag, file.string());
+      .command = "evaluate", .seed = {}, .inputs = {}, .parameters = {.is_map = true}};
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) {
+      description.inputs.emplace_back(option, value);
     }
   };
-  add("reference", options.reference);
-  add("trajectory", options.trajectory);
-  add("run", options.run);
-  add("log", options.log);
-  add("map", options.map);
-  add("relations", options.relations);
+  add("reference", options.reference.string());
+  add("trajectory", options.trajectory.string());
+  add("run", options.run.string());
+  add("log", options.log.string());
+  add("map", options.map.string());
+  add("relations", options.relations.string());
+  for (const fs::path& csv : options.alternatives) {
+    add("alternative", csv.string());
+  }
+  add("max-gap", number_text(options.max_gap_s));
+  for (const double path_m : options.deltas_m) {
+    add("delta-m", number_text(path_m));
+  }
+  for (const std::size_t frames : options.deltas_frames) {
+    add("delta-frames", number_text(frames));
+  }
+  add("lost-beyond", number_text(options.loss.bound_m));
   return description;
 }
 
@@ -179,7 +204,22 @@ Evaluation evaluate(const EvaluateOptions& options) {
   return evaluate_odometry(options.log, options.relations, {.max_gap_s = options.max_gap_s});
 }
 
+void print_runs(const EvaluateOptions& options) {
+  const bool alone = options.trajectory.empty() && options.run.empty() && options.log.empty() &&
+                     options.reference.empty() && options.out.empty() && !options.json;
+  if (!alone) {
+    throw std::invalid_argument("--runs prints a table and goes with --against only");
+  }
+  std::cout << runs_table(options.runs,
+                          options.against.empty() ? std::nullopt : std::optional(options.against));
+}
+
 void run_evaluate(const EvaluateOptions& options) {
+  check_config(options.config);
+  if (!options.runs.empty()) {
+    print_runs(options);
+    return;
+  }
   check_inputs(options);
   validate(options.loss);
   const Evaluation found = evaluate(options);
@@ -196,6 +236,8 @@ void add_algorithm_options(CLI::App& command, EvaluateOptions& options) {
   const auto option = [&](const std::string& flag, auto& value, const std::string& help) {
     return command.add_option(flag, value, help)->group(kAlgorithmGroup);
   };
+  option("--config", options.config, "run.yaml of an earlier evaluation, to repeat it")
+      ->type_name("FILE");
   option("--trajectory", options.trajectory, "A metric trajectory")->type_name("EST.tum");
   option("--run", options.run, "Or a folder that localize wrote")->type_name("DIR");
   option("--log", options.log,
@@ -211,6 +253,12 @@ void add_algorithm_options(CLI::App& command, EvaluateOptions& options) {
       ->type_name("ALT.csv");
   option("--relations", options.relations, "Relative poses of --log that people checked")
       ->type_name("RELATIONS");
+  option("--runs", options.runs,
+         "Or a table of many runs: folders that hold one folder per seed, a line each")
+      ->type_name("DIR");
+  option("--against", options.against,
+         "Of --runs: print the paired differences to this folder's runs too")
+      ->type_name("DIR");
   option("--max-gap", options.max_gap_s, "Between the times of two poses of a pair, s")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
@@ -236,7 +284,7 @@ void add_evaluate_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "evaluate",
       "Compare a trajectory, a run in a drawing, or the odometry and scans of a log with a "
-      "reference.");
+      "reference; or sum up many runs.");
   auto options = std::make_shared<EvaluateOptions>();
   add_algorithm_options(*command, *options);
   add_output_options(*command, *options);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "apps/data_set_files.hpp"
+#include "apps/generate_params.hpp"
 #include "apps/given_drawing.hpp"
 #include "apps/interrupt.hpp"
 #include "apps/output_folder.hpp"
@@ -40,24 +41,6 @@ const std::map<std::string, BuildingKind> kBuildingKinds = {{"home", BuildingKin
                                                             {"warehouse", BuildingKind::Warehouse}};
 const std::map<std::string, PersonKind> kPersonKinds = {
     {"human", PersonKind::Human}, {"tps", PersonKind::Tps}, {"none", PersonKind::None}};
-
-/// All parameters; the person's are those of --person where nothing else is said.
-struct GenerateParams {
-  PersonParams person = human_person();
-  DriveParams drive;
-  LidarModel lidar;
-  OdometryModel odometry;
-  MapReadingParams map_reading;
-};
-
-template <typename Visitor>
-void visit_fields(GenerateParams& params, Visitor&& visit) {
-  visit("person", params.person);
-  visit("drive", params.drive);
-  visit("lidar", params.lidar);
-  visit("odometry", params.odometry);
-  visit("map_reading", params.map_reading);
-}
 
 struct GenerateOptions {
   std::string kind = "office";
@@ -218,7 +201,9 @@ void generate_files(const GenerateOptions& options) {
   };
   work_in_parallel(options.count, options.jobs, generate_one,
                    [&](std::size_t done) { progress.update(done); });
-  write_atomically(out / "run.yaml", run_file_text(generator.description(options.seed)));
+  RunDescription run = generator.description(options.seed);
+  run.inputs.emplace_back("count", std::to_string(options.count));
+  write_atomically(out / "run.yaml", run_file_text(run));
   out.commit();
   std::cout << options.count << (options.count == 1 ? " data set in " : " data sets in ")
             << out.target().string() << "\n";
@@ -312,9 +297,7 @@ void add_output_options(CLI::App& command, GenerateOptions& options) {
           "Print how the drawings distort the world and what that makes of the scans, instead of "
           "writing them")
       ->group(kOutputGroup);
-  command.add_option("-j,--jobs", options.jobs, "Threads; 0: one per core")
-      ->group(kUsabilityGroup)
-      ->capture_default_str();
+  add_jobs_option(command, options.jobs);
 }
 
 }  // namespace

@@ -12,8 +12,10 @@
 
 #include "apps/memory.hpp"
 #include "apps/output_folder.hpp"
+#include "apps/parallel.hpp"
 #include "apps/program.hpp"
 #include "apps/progress.hpp"
+#include "apps/read_options.hpp"
 #include "apps/result_files.hpp"
 #include "apps/start_pose.hpp"
 #include "apps/version.hpp"
@@ -22,12 +24,6 @@
 #include "datasets/io/sketch_io.hpp"
 
 namespace sketchloc {
-
-template <typename Visitor>
-void visit_fields(LocalizationParams& params, Visitor&& visit) {
-  visit("localizer", params.localizer);
-  visit("odometry", params.odometry);
-}
 
 namespace {
 
@@ -62,7 +58,7 @@ RunRecord read_inputs(const LocalizeOptions& options) {
   record.seed = options.seed;
   record.commit = std::string(commit());
   record.sketch = read_any_drawing(options.map);
-  RunFile log = read_run_file(options.log, {.allow_truncated = options.allow_truncated});
+  RunFile log = read_run_file(options.log, options.reading);
   for (const std::string& note : log.notes) {
     spdlog::info("{}", note);
   }
@@ -79,9 +75,18 @@ RunRecord read_inputs(const LocalizeOptions& options) {
 
 Sim2 typed_start(const LocalizeOptions& options, const RunRecord& record) {
   const StartPose start = parse_start_pose(options.start);
-  std::optional<double> px_per_m = start.px_per_m ? start.px_per_m : record.sketch.px_per_m;
+  const Sketch& sketch = record.sketch;
+  const Eigen::Array2d size_px(sketch.width_px(), sketch.height_px());
+  if ((start.place_in_sketch.array() < 0.0).any() ||
+      (start.place_in_sketch.array() > size_px).any()) {
+    throw std::invalid_argument("--start " + options.start + ": the place is outside " +
+                                options.map.string() + ", which is " +
+                                std::to_string(sketch.width_px()) + " px wide and " +
+                                std::to_string(sketch.height_px()) + " px high");
+  }
+  std::optional<double> px_per_m = start.px_per_m ? start.px_per_m : sketch.px_per_m;
   if (!px_per_m) {
-    px_per_m = guess_px_per_m(record.sketch, start.place_in_sketch, start.heading_rad,
+    px_per_m = guess_px_per_m(sketch, start.place_in_sketch, start.heading_rad,
                               record.run.steps.front().scan);
     if (!px_per_m) {
       throw std::runtime_error(
@@ -129,14 +134,19 @@ void require_done(Localization::Status status, const LocalizeOptions& options) {
 }
 
 /// A map in true proportions has other defaults than a drawing.
-LocalizationParams parameters_for(const Sketch& sketch, const LocalizeOptions& options) {
+LocalizationParams defaults_for(const Sketch& sketch) {
   LocalizationParams defaults;
   if (sketch.px_per_m) {
     defaults.localizer = metric_localizer_params();
   }
-  LocalizationParams params = parameters_from<LocalizationParams>(options.parameters, defaults);
+  return defaults;
+}
+
+LocalizationParams parameters_for(const Sketch& sketch, const LocalizeOptions& options) {
+  LocalizationParams params =
+      parameters_from<LocalizationParams>(options.parameters, defaults_for(sketch));
   params.localizer.seed = options.seed;
-  params.localizer.jobs = options.jobs;
+  params.localizer.jobs = static_cast<int>(std::min(thread_count(options.jobs), 1024U));
   validate(params);
   return params;
 }
@@ -168,21 +178,31 @@ std::string start_text(const LocalizeOptions& options) {
                                         : "anywhere in the drawing";
 }
 
+/// Everything that was given and that the result depends on.
 RunDescription description_of(const LocalizeOptions& options, const LocalizationParams& params) {
   RunDescription description{.command = "localize",
                              .seed = options.seed,
                              .inputs = {{"map", options.map.string()},
                                         {"log", options.log.string()},
-                                        {"start", start_text(options)},
                                         {"method", name_of(kMethods, options.method)},
                                         {"odometry", name_of(kOdometrySources, options.odometry)}},
                              .parameters = to_config(params)};
-  if (!options.reference.empty()) {
-    description.inputs.emplace_back("reference", options.reference.string());
-  }
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) {
+      description.inputs.emplace_back(option, value);
+    }
+  };
+  add("start", options.start);
+  add("start-from-reference", options.start_from_reference ? "true" : "");
+  add("global", options.start.empty() && !options.start_from_reference ? "true" : "");
+  add("max-range-m",
+      options.reading.max_range_m ? to_config(*options.reading.max_range_m).text : "");
+  add("allow-truncated", options.reading.allow_truncated ? "true" : "");
+  add("reference", options.reference.string());
   for (const std::filesystem::path& csv : options.alternatives) {
-    description.inputs.emplace_back("alternative", csv.string());
+    add("alternative", csv.string());
   }
+  add("title", options.title);
   return description;
 }
 
@@ -199,6 +219,27 @@ void describe(RunRecord& record, const LocalizeOptions& options, const Localizat
   record.parameters = to_yaml(to_config(params));
 }
 
+/// At most one of them; what the command line says replaces any other of a --config file.
+void add_start_options(CLI::App& command, LocalizeOptions& options) {
+  CLI::Option* start =
+      command
+          .add_option("--start", options.start,
+                      "Where the robot starts in the drawing: x right and y up from the lower left "
+                      "corner in px, heading counter-clockwise")
+          ->group(kAlgorithmGroup)
+          ->type_name("X,Y,HEADING_DEG[,PX_PER_M]");
+  CLI::Option* from_reference =
+      command
+          .add_flag("--start-from-reference", options.start_from_reference,
+                    "Start at the reference's first pose")
+          ->group(kAlgorithmGroup);
+  CLI::Option* global =
+      command.add_flag("--global", options.global, "Start anywhere in the drawing (default)")
+          ->group(kAlgorithmGroup);
+  start->excludes(from_reference)->excludes(global);
+  from_reference->excludes(global);
+}
+
 void add_algorithm_options(CLI::App& command, LocalizeOptions& options) {
   const auto option = [&](const std::string& flag, auto& value, const std::string& help) {
     return command.add_option(flag, value, help)->group(kAlgorithmGroup);
@@ -209,16 +250,8 @@ void add_algorithm_options(CLI::App& command, LocalizeOptions& options) {
   option("--log", options.log, "The robot's log: CARMEN or JSON lines, plain or gzip")
       ->required()
       ->type_name("LOG");
-  option("--start", options.start,
-         "Where the robot starts in the drawing: x right and y up from the lower left corner in "
-         "px, heading counter-clockwise")
-      ->type_name("X,Y,HEADING_DEG[,PX_PER_M]");
-  command
-      .add_flag("--start-from-reference", options.start_from_reference,
-                "Start at the reference's first pose")
-      ->group(kAlgorithmGroup);
-  command.add_flag("--global", options.global, "Start anywhere in the drawing (default)")
-      ->group(kAlgorithmGroup);
+  add_read_options(command, options.reading);
+  add_start_options(command, options);
   option("--method", options.method, "mcl, or odometry: dead reckoning from the start")
       ->transform(CLI::CheckedTransformer(kMethods, CLI::ignore_case).description(""))
       ->type_name("NAME");
@@ -244,13 +277,13 @@ void add_other_options(CLI::App& command, LocalizeOptions& options) {
       ->type_name("ALT.csv");
   command.add_option("--title", options.title, "Of the report")->group(kOutputGroup);
   command.add_flag("--force", options.force, "Replace an earlier result")->group(kOutputGroup);
-  command.add_option("--jobs", options.jobs, "Threads; the result does not depend on their number")
-      ->group(kUsabilityGroup)
-      ->capture_default_str();
-  command
-      .add_flag("--allow-truncated", options.allow_truncated,
-                "Keep the whole lines of a log that was cut off")
-      ->group(kUsabilityGroup);
+  add_jobs_option(command, options.jobs);
+}
+
+/// The defaults for the --map that was given, as far as it was.
+ConfigNode default_parameters(const LocalizeOptions& options) {
+  return to_config(options.map.empty() ? LocalizationParams{}
+                                       : defaults_for(read_any_drawing(options.map)));
 }
 
 }  // namespace
@@ -273,7 +306,9 @@ void add_localize_command(CLI::App& program) {
       program.add_subcommand("localize", "Find the path of a robot in a drawing, from its log.");
   auto options = std::make_shared<LocalizeOptions>();
   add_algorithm_options(*command, *options);
-  add_parameter_options(*command, to_config(LocalizationParams{}), options->parameters);
+  add_parameter_options(
+      *command, [options = options.get()] { return default_parameters(*options); },
+      options->parameters);
   add_other_options(*command, *options);
   command->callback([options] { run_localize(*options); });
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/parameter_options.hpp"
+#include "datasets/io/run_io.hpp"
 #include "eval/localization.hpp"
 
 namespace CLI {
@@ -30,9 +31,9 @@ struct LocalizeOptions {
   Method method = Method::Mcl;
   OdometrySource odometry = OdometrySource::Matched;
   std::uint64_t seed = 1;
-  int jobs = 1;
+  unsigned jobs = 1;  ///< threads; 0: one per core
 
-  bool allow_truncated = false;
+  RunReading reading;  ///< of the log
   bool force = false;
   std::string title;  ///< of the report; empty: names of drawing and log
   ParameterOptions parameters;

@@ -57,14 +57,17 @@ void report(Shared& shared, std::size_t count, const std::function<void(std::siz
 
 }  // namespace
 
+unsigned thread_count(unsigned jobs) {
+  return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
+}
+
 void work_in_parallel(std::size_t count, unsigned jobs,
                       const std::function<void(std::size_t)>& work,
                       const std::function<void(std::size_t)>& done) {
-  const unsigned wanted = jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
   Shared shared;
   {
     std::vector<std::jthread> workers;
-    for (std::size_t i = 0; i < std::min<std::size_t>(wanted, count); ++i) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(thread_count(jobs), count); ++i) {
       workers.emplace_back([&] { run_worker(shared, count, work); });
     }
     try {

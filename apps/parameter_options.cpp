@@ -8,18 +8,25 @@ namespace sketchloc {
 
 void add_parameter_options(CLI::App& command, const ConfigNode& defaults,
                            ParameterOptions& options) {
+  add_parameter_options(
+      command, [defaults] { return defaults; }, options);
+}
+
+void add_parameter_options(CLI::App& command, const std::function<ConfigNode()>& defaults,
+                           ParameterOptions& options) {
   command
       .add_option("--config", options.config_file,
-                  "Parameters as YAML, such as run.yaml of an earlier run")
+                  "Parameters as YAML; run.yaml of an earlier run gives its other options too, "
+                  "where the command line does not")
       ->group(kAlgorithmGroup)
       ->type_name("FILE");
-  const auto print = [text = to_yaml(defaults)] { throw CLI::CallForVersion(text, 0); };
+  const auto print = [defaults] { throw CLI::CallForVersion(to_yaml(defaults()), 0); };
   command
       .add_flag_callback("--print-parameters", print,
                          "Print all parameters with their defaults; each is a flag too, "
                          "such as --group.name VALUE, and wins over the file")
       ->group(kAlgorithmGroup);
-  for (const std::string& path : value_paths(defaults)) {
+  for (const std::string& path : value_paths(defaults())) {
     const std::string flag = "--" + path;
     const auto set = [&options, path, flag](const std::string& text) {
       set_value(options.flags, path, {.text = text, .source = flag});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 
 #include "apps/config.hpp"
 
@@ -19,6 +20,11 @@ struct ParameterOptions {
 /// Adds --config, --print-parameters and one flag per parameter, named by its path and kept out of
 /// --help. `options` must outlive the parsing.
 void add_parameter_options(CLI::App& command, const ConfigNode& defaults,
+                           ParameterOptions& options);
+
+/// The same where the defaults depend on the options that were added before: `defaults` is called
+/// once now, for the names, and again to print them.
+void add_parameter_options(CLI::App& command, const std::function<ConfigNode()>& defaults,
                            ParameterOptions& options);
 
 /// The parameters with precedence default < --config file < flag. Unknown names, wrong types and

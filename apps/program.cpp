@@ -4,12 +4,17 @@
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "apps/interrupt.hpp"
+#include "apps/recorded_options.hpp"
 #include "apps/version.hpp"
 
 namespace sketchloc {
@@ -53,6 +58,14 @@ int exit_code_of(const CLI::App& program, const CLI::ParseError& error) {
 
 }  // namespace
 
+void add_jobs_option(CLI::App& command, unsigned& jobs) {
+  command
+      .add_option("-j,--jobs", jobs,
+                  "Threads, 0: one per core; the result does not depend on their number")
+      ->group(kUsabilityGroup)
+      ->capture_default_str();
+}
+
 int run_program(int argc, const char* const* argv, std::span<const AddCommand> commands) {
   log_to_stderr();
   catch_interrupts();
@@ -69,7 +82,10 @@ int run_program(int argc, const char* const* argv, std::span<const AddCommand> c
   program.set_version_flag("--version", version_text(), "Print version and commit and exit")
       ->group(kUsabilityGroup);
   try {
-    program.parse(argc, argv);
+    std::vector<std::string> arguments =
+        with_recorded_options(program, {argv + std::min(argc, 1), argv + argc});
+    std::ranges::reverse(arguments);  // as CLI11 wants them
+    program.parse(std::move(arguments));
     return kDone;
   } catch (const CLI::ParseError& error) {
     return exit_code_of(program, error);

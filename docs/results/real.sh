@@ -21,25 +21,6 @@ run() { # drawing log alternative-or-empty row seed options...
     --seed "$seed" --out "$dir" "$@" >/dev/null 2>"$out/last_messages.txt"
 }
 
-# Mean and spread over the seeds of a row.
-summarise() { # drawing row
-  cat "$out/$1/$2"/*/metrics.json | tr -d ' ",{}' | awk -F: -v row="$2" '
-    $1 == "share_within_1_m" { n++; one += $2 }
-    $1 == "share_within_2_m" { two += $2; square += $2 * $2; low = n == 1 || $2 < low ? $2 : low }
-    $1 == "translation_error_m" { part = "t" }
-    $1 == "heading_error_deg" { part = "h" }
-    $1 == "median" && part == "t" { t[n + 0] = $2; tm += $2; part = "" }
-    $1 == "median" && part == "h" { hm += $2; part = "" }
-    $1 == "lost_at_end" { lost += $2 == "true" }
-    $1 == "first_loss_s" && $2 != "null" { losses++; first += $2 }
-    END {
-      error = n > 1 ? 1.96 * sqrt((square - two * two / n) / (n - 1) / n) : 0
-      printf "| %s | %d | %.1f | %.1f ± %.1f | %.1f | %.2f | %.1f | %s | %d/%d |\n", row, n,
-        100 * one / n, 100 * two / n, 100 * error, 100 * low, tm / n, hm / n,
-        losses ? sprintf("%.0f (%d/%d)", first / losses, losses, n) : "never", lost, n
-    }'
-}
-
 table() { # drawing log alternative-or-empty
   local seed
   run "$1" "$2" "$3" odometry_raw 1 --start-from-reference --method odometry --odometry raw
@@ -55,12 +36,9 @@ table() { # drawing log alternative-or-empty
     run "$1" "$2" "$3" mcl_global_start "$seed" --global
   done
   printf '\n%s\n\n' "$1"
-  echo '| method | runs | within 1 m % | within 2 m % (95 % interval) | worst run % | median m | median heading deg | first loss s (runs) | lost at end |'
-  echo '|---|---|---|---|---|---|---|---|---|'
-  local row
-  for row in odometry_raw odometry_matched end_points similarity_only mcl_raw_odometry mcl mcl_global_start; do
-    summarise "$1" "$row"
-  done
+  local rows=(odometry_raw odometry_matched end_points similarity_only mcl_raw_odometry mcl
+    mcl_global_start)
+  "$sketchloc" evaluate --runs "${rows[@]/#/$out/$1/}" --against "$out/$1/mcl"
 }
 
 # DRAWINGS=intel or DRAWINGS=belgioioso makes one of the two tables only.

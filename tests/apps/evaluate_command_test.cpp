@@ -14,6 +14,7 @@ namespace {
 
 using testing::CommandResult;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::TemporaryDirectory;
 
 /// Straight on for 3 m; the estimate lies 2 m beside it.
@@ -53,6 +54,54 @@ TEST_F(EvaluateCommandEndToEnd, WritesTheFolderOfResults) {
   EXPECT_THAT(result.out, HasSubstr("\"unaligned\""));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "result/metrics.json"));
   EXPECT_TRUE(std::filesystem::exists(folder_ / "result/run.yaml"));
+}
+
+TEST_F(EvaluateCommandEndToEnd, EvaluatesAgainFromItsRunFileAlone) {
+  ASSERT_EQ(evaluate({"--trajectory", file("estimate.tum"), "--reference", file("reference.tum"),
+                      "--delta-m", "2", "--delta-frames", "1", "2", "--out", file("one")})
+                .exit_code,
+            0);
+  const CommandResult again = evaluate({"--config", file("one/run.yaml"), "--out", file("two")});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_THAT(again.out, HasSubstr("RPE over 2 m"));
+  EXPECT_THAT(again.out, Not(HasSubstr("RPE over 5 m")));
+  EXPECT_THAT(again.out, HasSubstr("RPE over 2 frames"));
+  std::ofstream(folder_ / "tune.yaml") << "a: 1\n";
+  EXPECT_THAT(evaluate({"--config", file("tune.yaml")}).err, HasSubstr("run.yaml of an earlier"));
+}
+
+/// What a run leaves behind that a table needs.
+void write_metrics(const std::filesystem::path& run, double share_within_2_m, bool lost) {
+  std::filesystem::create_directories(run);
+  std::ofstream(run / "metrics.json")
+      << R"({"scored_poses": 9, "share_within_1_m": 0.25, "share_within_2_m": )" << share_within_2_m
+      << R"(, "translation_error_m": {"median": 0.5}, )"
+      << R"("heading_error_deg": {"median": 10}, "first_loss_s": null, "lost_at_end": )"
+      << (lost ? "true" : "false") << "}";
+}
+
+TEST_F(EvaluateCommandEndToEnd, SumsUpManyRuns) {
+  for (const int seed : {1, 2, 3, 4}) {
+    write_metrics(folder_ / "castle/mcl" / std::to_string(seed), 0.5 + 0.1 * seed, seed == 1);
+    write_metrics(folder_ / "castle/odometry" / std::to_string(seed), 0.4 + 0.1 * seed, true);
+  }
+  const CommandResult result = evaluate({"--runs", file("castle/mcl"), file("castle/odometry/"),
+                                         "--against", file("castle/odometry")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("| castle | mcl | 4 | 25 [25, 25] | 75 ["));
+  EXPECT_THAT(result.out, HasSubstr("| 60 | 0.50 [0.50, 0.50] | 10.0 [10.0, 10.0] | never | "
+                                    "25 [5, 70] |\n"));  // Wilson, worked by hand
+  EXPECT_THAT(result.out, HasSubstr("| castle | mcl | 4 | +10.0 [+10.0, +10.0] |"));
+}
+
+TEST_F(EvaluateCommandEndToEnd, SaysWhichOfManyRunsIsUnfinished) {
+  write_metrics(folder_ / "castle/mcl/1", 0.5, false);
+  std::filesystem::create_directories(folder_ / "castle/mcl/2");
+  const CommandResult result = evaluate({"--runs", file("castle/mcl")});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("castle/mcl/2/metrics.json: cannot be read"));
+  EXPECT_EQ(evaluate({"--runs", file("castle/none")}).exit_code, 1);
+  EXPECT_EQ(evaluate({"--runs", file("castle/mcl"), "--json"}).exit_code, 2);
 }
 
 TEST_F(EvaluateCommandEndToEnd, SaysWhatIsWrong) {

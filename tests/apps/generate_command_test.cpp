@@ -65,6 +65,23 @@ TEST(GenerateEndToEnd, MakesOneOfSeveralAgainFromItsSeed) {
   EXPECT_TRUE(contents(folder / "two" / "seed_9") == again);
 }
 
+TEST(GenerateEndToEnd, MakesTheSameAgainFromARunFileAlone) {
+  const testing::TemporaryDirectory folder;
+  const auto again = [&](const fs::path& config, const fs::path& out) {
+    const CommandResult result = testing::run_command(
+        {SKETCHLOC_PROGRAM, "generate", "--quiet", "--config", config, "--out", out});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+  };
+  generate({"--out", folder / "two", "--count", "2", "--seed", "8", "--kind", "home", "--person",
+            "tps"});
+  again(folder / "two" / "run.yaml", folder / "same");
+  EXPECT_TRUE(contents(folder / "two") == contents(folder / "same"));
+  again(folder / "two" / "seed_9" / "world.yaml", folder / "second");
+  std::map<std::string, std::string> one = contents(folder / "second");
+  one.erase("run.yaml");
+  EXPECT_TRUE(contents(folder / "two" / "seed_9") == one);
+}
+
 TEST(GenerateEndToEnd, WritesWhatTheReadersRead) {
   const testing::TemporaryDirectory folder;
   ASSERT_EQ(generate({"--out", folder / "set", "--kind", "warehouse"}).exit_code, 0);

@@ -77,6 +77,16 @@ class LocalizeCommandEndToEnd : public ::testing::Test {
     command.insert(command.end(), more.begin(), more.end());
     return testing::run_command(command);
   }
+  /// The reference in the form of an alternative reading.
+  std::string reference_as_alternative() const {
+    std::ifstream reference(*inputs_ / "reference.csv");
+    std::ofstream alternative(outputs_ / "alternative.csv");
+    for (std::string line; std::getline(reference, line);) {
+      const bool header = line.starts_with("t_index");
+      alternative << line << (header ? ",distance_to_A_px" : ",0") << "\n";
+    }
+    return (outputs_ / "alternative.csv").string();
+  }
   std::vector<std::string> with_reference() const {
     return {"--reference", (*inputs_ / "reference.csv").string(), "--start-from-reference"};
   }
@@ -110,18 +120,44 @@ TEST_F(LocalizeCommandEndToEnd, GivesTheSameTrajectoryForTheSameSeed) {
   ASSERT_EQ(localize(outputs_ / "two", more).exit_code, 0);
   EXPECT_EQ(content_of(outputs_ / "one/trajectory.csv"),
             content_of(outputs_ / "two/trajectory.csv"));
-  ASSERT_EQ(localize(outputs_ / "three", {"--seed", "2", "--global"}).exit_code, 0);
+  std::vector<std::string> other_seed = with_reference();
+  other_seed.insert(other_seed.end(), {"--seed", "2"});
+  ASSERT_EQ(localize(outputs_ / "three", other_seed).exit_code, 0);
   EXPECT_NE(content_of(outputs_ / "one/trajectory.csv"),
             content_of(outputs_ / "three/trajectory.csv"));
 }
 
-TEST_F(LocalizeCommandEndToEnd, RunsAgainFromItsRunFile) {
-  ASSERT_EQ(localize(outputs_ / "one", with_reference()).exit_code, 0);
+TEST_F(LocalizeCommandEndToEnd, StartsAnywhereWithoutAStart) {
+  ASSERT_EQ(localize(outputs_ / "default", {}).exit_code, 0);
+  ASSERT_EQ(localize(outputs_ / "global", {"--global"}).exit_code, 0);
+  EXPECT_EQ(content_of(outputs_ / "default/trajectory.csv"),
+            content_of(outputs_ / "global/trajectory.csv"));
+  ASSERT_EQ(localize(outputs_ / "known", with_reference()).exit_code, 0);
+  EXPECT_NE(content_of(outputs_ / "default/trajectory.csv"),
+            content_of(outputs_ / "known/trajectory.csv"));
+}
+
+TEST_F(LocalizeCommandEndToEnd, RunsAgainFromItsRunFileAlone) {
   std::vector<std::string> more = with_reference();
-  more.insert(more.end(), {"--config", (outputs_ / "one/run.yaml").string()});
-  ASSERT_EQ(localize(outputs_ / "two", more).exit_code, 0);
-  EXPECT_EQ(content_of(outputs_ / "one/trajectory.csv"),
-            content_of(outputs_ / "two/trajectory.csv"));
+  more.insert(more.end(), {"--seed", "5", "--odometry", "raw", "--title", "an: odd 'title'",
+                           "--max-range-m", "6.5", "--alternative", reference_as_alternative(),
+                           "--alternative", reference_as_alternative()});
+  ASSERT_EQ(localize(outputs_ / "one", more).exit_code, 0);
+  const std::string run_file = (outputs_ / "one/run.yaml").string();
+  const auto again = [&](const std::string& out, std::vector<std::string> others) {
+    others.insert(others.begin(), {SKETCHLOC_PROGRAM, "localize", "--config", run_file, "--out",
+                                   (outputs_ / out).string()});
+    const CommandResult result = testing::run_command(others);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return content_of(outputs_ / out / "trajectory.csv");
+  };
+  const std::string first = content_of(outputs_ / "one/trajectory.csv");
+  EXPECT_EQ(again("two", {}), first);
+  EXPECT_EQ(content_of(outputs_ / "two/run.yaml"), content_of(run_file));
+  EXPECT_NE(again("other_seed", {"--seed", "6"}), first);
+  EXPECT_NE(again("other_odometry", {"--odometry", "matched"}), first);
+  EXPECT_NE(again("other_range", {"--max-range-m", "60"}), first);
+  EXPECT_NE(again("other_start", {"--global"}), first);
 }
 
 TEST_F(LocalizeCommandEndToEnd, NeverReplacesAResultUnlessForced) {
@@ -153,12 +189,37 @@ TEST_F(LocalizeCommandEndToEnd, SaysWhatIsWrongWithItsOptions) {
     EXPECT_THAT(result.err, HasSubstr(message));
     EXPECT_FALSE(fs::exists(outputs_ / "result"));
   };
-  fails_with({"--start", "1,2,3,4", "--global"}, "not several");
+  fails_with({"--start", "1,2,3,4", "--global"}, "excludes");
+  fails_with({"--start", "-5,20,0,20"}, "home & <garden>.pgm, which is ");
+  fails_with({"--start", "20,90000,0"}, " px wide and ");
   fails_with({"--start-from-reference"}, "needs --reference");
   fails_with({"--method", "odometry"}, "needs --start");
   fails_with({"--method", "magic"}, "--method");
   fails_with({"--start", "1,2"}, "X,Y,HEADING_DEG");
   fails_with({"--localizer.gate.way_m", "-1"}, "way_m");
+}
+
+TEST_F(LocalizeCommandEndToEnd, TakesZeroJobsForOnePerCore) {
+  std::vector<std::string> more = with_reference();
+  more.insert(more.end(), {"--jobs", "0"});
+  const CommandResult result = localize(outputs_ / "result", more);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+}
+
+TEST_F(LocalizeCommandEndToEnd, PrintsTheDefaultsForTheGivenMap) {
+  std::ofstream(outputs_ / "map.pgm") << "P2 4 3 255\n0 0 0 0 0 255 255 0 0 0 0 0\n";
+  std::ofstream(outputs_ / "map.yaml")
+      << "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
+      << "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  const auto printed = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), {SKETCHLOC_PROGRAM, "localize", "--print-parameters"});
+    const CommandResult result = testing::run_command(more);
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    return result.out;
+  };
+  EXPECT_THAT(printed({}), HasSubstr("measurement: beams"));
+  EXPECT_THAT(printed({"--map", (outputs_ / "map.yaml").string()}),
+              HasSubstr("measurement: end_points"));
 }
 
 TEST_F(LocalizeCommandEndToEnd, LeavesNothingBehindWhenTheDataFail) {

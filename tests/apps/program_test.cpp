@@ -28,6 +28,7 @@ void visit_fields(ToyParams& params, Visitor&& visit) {
 }
 
 double seen_share = 0.0;
+std::string seen_map;
 std::string failure;
 
 void work(const ParameterOptions& options) {
@@ -43,9 +44,8 @@ void work(const ParameterOptions& options) {
 void add_toy_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("toy", "A command for the tests.");
   auto options = std::make_shared<ParameterOptions>();
-  static std::string map;
   static bool force = false;
-  command->add_option("--map", map, "The drawing")->group(kAlgorithmGroup)->required();
+  command->add_option("--map", seen_map, "The drawing")->group(kAlgorithmGroup)->required();
   add_parameter_options(*command, to_config(ToyParams{}), *options);
   command->add_flag("--force", force, "Overwrite")->group(kOutputGroup);
   command->callback([options] { work(*options); });
@@ -93,6 +93,37 @@ TEST_F(Program, TakesFlagsOverTheFileOverTheDefaults) {
   EXPECT_EQ(seen_share, 0.25);
   run({"toy", "--map", "m", "--share", "0.75", "--config", config.c_str()});
   EXPECT_EQ(seen_share, 0.75);
+}
+
+TEST_F(Program, TakesTheOptionsOfAnEarlierRunWhereTheCommandLineSaysNothing) {
+  const testing::TemporaryDirectory folder;
+  const std::string earlier = (folder / "run.yaml").string();
+  std::ofstream(earlier) << "sketchloc: {command: toy}\ninputs: {map: old}\n"
+                         << "parameters: {share: 0.125}\n";
+  EXPECT_EQ(run({"toy", "--config", earlier.c_str()}).exit_code, 0);
+  EXPECT_EQ(seen_map, "old");
+  EXPECT_EQ(seen_share, 0.125);
+  EXPECT_EQ(run({"toy", ("--config=" + earlier).c_str(), "--map", "new"}).exit_code, 0);
+  EXPECT_EQ(seen_map, "new");
+}
+
+TEST_F(Program, SaysWhichRecordedOptionItDoesNotKnow) {
+  const testing::TemporaryDirectory folder;
+  const std::string earlier = (folder / "run.yaml").string();
+  std::ofstream(earlier) << "sketchloc: {command: toy}\ninputs: {colour: red}\nparameters: {}\n";
+  const Outcome outcome = run({"toy", "--map", "m", "--config", earlier.c_str()});
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("sketchloc toy has no option --colour"));
+}
+
+TEST_F(Program, TakesOnlyTheParametersOfAnotherCommandsRun) {
+  const testing::TemporaryDirectory folder;
+  const std::string other = (folder / "run.yaml").string();
+  std::ofstream(other) << "sketchloc: {command: other}\ninputs: {map: old}\n"
+                       << "parameters: {share: 0.125}\n";
+  EXPECT_THAT(run({"toy", "--config", other.c_str()}).err, HasSubstr("--map is required"));
+  EXPECT_EQ(run({"toy", "--map", "m", "--config", other.c_str()}).exit_code, 0);
+  EXPECT_EQ(seen_share, 0.125);
 }
 
 TEST_F(Program, PrintsAllParametersWithoutDoingAnything) {
