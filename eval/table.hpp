@@ -29,13 +29,13 @@ struct TableRow {
   std::string data_set;
   std::string method;
   std::size_t runs = 0;
-  TableCell share_within_1_m;      ///< mean over the runs, in [0, 1]
-  TableCell share_within_2_m;      ///< mean
-  TableCell worst_within_2_m;      ///< the least of the runs
-  TableCell median_error_m;        ///< mean of the runs' medians
-  TableCell median_heading_rad;    ///< mean of the runs' medians
-  TableCell first_loss_s;          ///< median; none where half of the runs are never lost
-  TableCell share_lost_at_end;     ///< of the runs, Wilson interval
+  TableCell share_within_1_m;    ///< mean over the runs, in [0, 1]
+  TableCell share_within_2_m;    ///< mean
+  TableCell worst_within_2_m;    ///< the least of the runs
+  TableCell median_error_m;      ///< mean of the runs' medians
+  TableCell median_heading_rad;  ///< mean of the runs' medians
+  TableCell first_loss_s;        ///< median; none where half of the runs are never lost
+  TableCell share_lost_at_end;   ///< of the runs, Wilson interval
 };
 
 /// Means carry bootstrap intervals, rates Wilson intervals. Empty sets are left out.
