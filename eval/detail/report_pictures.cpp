@@ -28,12 +28,14 @@ std::optional<Sim2> referenced(const RunRecord& record, const Moment& moment) {
                                                : std::nullopt;
 }
 
-/// A text of constant size at a place of the picture.
+/// A text of constant size at a place of the picture; near its right edge it stands on the left.
 std::string label_at(const View& view, const Eigen::Vector2d& point, const std::string& css_class,
                      const std::string& text) {
   const Eigen::Vector2d percent_there =
       (100.0 * (point - view.low).array() / (view.high - view.low).array()).max(0.0).min(100.0);
-  return "<span class=\"" + css_class + "\" style=\"left:" + fixed(percent_there.x(), 2) +
+  constexpr double kNearEdge_percent = 80.0;
+  const std::string side = percent_there.x() > kNearEdge_percent ? " left" : "";
+  return "<span class=\"" + css_class + side + "\" style=\"left:" + fixed(percent_there.x(), 2) +
          "%;bottom:" + fixed(percent_there.y(), 2) + "%\">" + text + "</span>";
 }
 

@@ -56,6 +56,7 @@ constexpr const char* kPictures = R"css(
 .start{border-radius:50%}.end.reference{border-color:#0064be}
 .picture b{position:absolute;left:14px;top:-8px;font-size:12px;line-height:16px;color:#1d2127;
 white-space:nowrap;background:#ffffffd0;padding:0 3px;border-radius:3px}
+.picture .left b{left:auto;right:14px}
 .picture .reference b{color:#0064be;top:8px;display:none}
 .badge{min-width:18px;height:18px;border-radius:9px;background:#1d2127;color:#fff;
 border:1px solid #9aa;font:bold 11px/16px system-ui,sans-serif;text-align:center}
