@@ -41,6 +41,7 @@ struct MapReadingParams {
   double min_floor_m2 = 4.0;   ///< smaller free spaces are taken for solid, >= 0
   double room_size_m = 4.0;    ///< side of the pieces of floor that stand for rooms, > 0
   double solid_depth_m = 0.3;  ///< a wall thicker than twice this is drawn as its faces, > 0
+  double max_side_m = 400.0;   ///< a larger map is an error: its scale is most likely wrong, > 0
 };
 
 template <typename Visitor>
@@ -50,13 +51,15 @@ void visit_fields(MapReadingParams& reading, Visitor&& visit) {
   visit("min_floor_m2", reading.min_floor_m2);
   visit("room_size_m", reading.room_size_m);
   visit("solid_depth_m", reading.solid_depth_m);
+  visit("max_side_m", reading.max_side_m);
 }
 
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const MapReadingParams& reading);
 
 /// A real building's occupancy map (1 = occupied or unknown) as a building: its walls are traced
-/// into lines, and pieces of its free space stand for rooms.
+/// into lines, and pieces of its free space stand for rooms. Throws std::invalid_argument for a map
+/// with a longer side than params.max_side_m.
 Building building_from_map(const Grid<std::uint8_t>& occupied, double cell_m, Rng& rng,
                            const MapReadingParams& params = {});
 

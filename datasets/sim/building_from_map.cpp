@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include "datasets/sim/building.hpp"
 #include "datasets/sim/detail/plan_builder.hpp"
 #include "datasets/sim/detail/wall_tracing.hpp"
 #include "motion/check.hpp"
+#include "motion/number_text.hpp"
 #include "motion/validate.hpp"
 #include "registration/distance_field.hpp"
 
@@ -112,6 +115,18 @@ std::vector<Room> pieces_of_floor(const MetricMap& map, double room_size_m, Rng&
   return rooms;
 }
 
+/// Large maps take hours, and hardly any building is that large.
+void require_size(const Grid<std::uint8_t>& cells, double cell_m, double max_side_m) {
+  const double width_m = cells.width() * cell_m;
+  const double height_m = cells.height() * cell_m;
+  if (std::max(width_m, height_m) > max_side_m) {
+    throw std::invalid_argument("the map is " + number_text(std::round(width_m)) + " m x " +
+                                number_text(std::round(height_m)) + " m with cells of " +
+                                number_text(cell_m) + " m, more than max_side_m, " +
+                                number_text(max_side_m) + " m");
+  }
+}
+
 }  // namespace
 
 void validate(const MapReadingParams& reading) {
@@ -120,12 +135,14 @@ void validate(const MapReadingParams& reading) {
   require_at_least("min_floor_m2", reading.min_floor_m2, 0.0);
   require_at_least("room_size_m", reading.room_size_m, 0.5);
   require_above("solid_depth_m", reading.solid_depth_m, 0.0);
+  require_above("max_side_m", reading.max_side_m, 0.0);
 }
 
 Building building_from_map(const Grid<std::uint8_t>& occupied, double cell_m, Rng& rng,
                            const MapReadingParams& params) {
   validate(params);
   check(cell_m > 0.0 && !occupied.empty(), "a map has cells with a size");
+  require_size(occupied, cell_m, params.max_side_m);
   const double min_cells = params.min_floor_m2 / (cell_m * cell_m);
   Building building{.plan = {},
                     .map = {.cells = solid_without_specks(occupied, min_cells), .cell_m = cell_m}};

@@ -19,6 +19,9 @@ Run measure(const Building& building, const MetricTrajectory& world_from_robot,
   Run run;
   Se2 odom_from_robot;
   for (std::size_t step = 0; step < world_from_robot.size(); ++step) {
+    if (params.checkpoint) {
+      params.checkpoint();
+    }
     if (step > 0) {
       const Se2 robot_from_next =
           world_from_robot[step - 1].pose.inverse() * world_from_robot[step].pose;
@@ -56,7 +59,7 @@ Drawing make_drawing(const Building& building, const DataSetParams& params, std:
 
 Drive drive_in(const Building& building, const DataSetParams& params, std::uint64_t seed) {
   Rng rng = make_rng(seed, kDrive);
-  return drive_through(building, params.drive, rng);
+  return drive_through(building, params.drive, rng, params.checkpoint);
 }
 
 DataSetInBuilding::Status status_of(Drive::Status status) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 
 #include "datasets/reference.hpp"
@@ -20,6 +21,8 @@ struct DataSetParams {
   DriveParams drive{};
   LidarModel lidar{};
   OdometryModel odometry{};
+  /// Called now and then while data sets are made; may throw to stop the work.
+  std::function<void()> checkpoint = {};
 };
 
 /// Throws std::invalid_argument naming the field, its range and its value.

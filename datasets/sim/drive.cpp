@@ -188,7 +188,8 @@ void validate(const DriveParams& params) {
   require_at_least("wander_m", params.wander_m, 0.0);
 }
 
-Drive drive_through(const Building& building, const DriveParams& params, Rng& rng) {
+Drive drive_through(const Building& building, const DriveParams& params, Rng& rng,
+                    const std::function<void()>& checkpoint) {
   validate(params);
   const detail::RoutePlanner planner(building.map, params.robot_radius_m);
   const std::vector<Points> areas = standing_places(building, planner);
@@ -201,6 +202,9 @@ Drive drive_through(const Building& building, const DriveParams& params, Rng& rn
   int failures = 0;
   bool way_found = false;  // to one of the goals that failed in a row
   while (driver.way_m() < params.length_m) {
+    if (checkpoint) {
+      checkpoint();
+    }
     const Eigen::Vector2d goal = goals.next(rng);
     std::optional<Polyline> line = planner.route(here, goal);
     if (!line || detail::length(*line) < kShortestLeg_m) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <vector>
 
 #include "datasets/sim/building.hpp"
@@ -46,7 +47,9 @@ struct Drive {
   MetricTrajectory world_from_robot{};  ///< one pose per scan
 };
 
-/// Visits random rooms on the cheapest ways that keep off the walls.
-Drive drive_through(const Building& building, const DriveParams& params, Rng& rng);
+/// Visits random rooms on the cheapest ways that keep off the walls. `checkpoint` is called before
+/// every way; it may throw to stop the work.
+Drive drive_through(const Building& building, const DriveParams& params, Rng& rng,
+                    const std::function<void()>& checkpoint = {});
 
 }  // namespace sketchloc

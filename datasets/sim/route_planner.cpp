@@ -108,8 +108,11 @@ void RoutePlanner::flood_border(Grid<std::uint8_t>& seen) const {
 
 std::vector<Eigen::Vector2d> RoutePlanner::standing_places(const PlaneBox& box_in_world) const {
   std::vector<Eigen::Vector2d> places;
-  for (int row = 0; row < reachable_.height(); ++row) {
-    for (int column = 0; column < reachable_.width(); ++column) {
+  const Cell low = cell_at((box_in_world.low - origin_in_world_) / cell_m_);
+  const Cell high = cell_at((box_in_world.high - origin_in_world_) / cell_m_);
+  for (int row = std::max(low.row, 0); row <= std::min(high.row, reachable_.height() - 1); ++row) {
+    for (int column = std::max(low.column, 0);
+         column <= std::min(high.column, reachable_.width() - 1); ++column) {
       const Eigen::Vector2d place = origin_in_world_ + cell_m_ * centre_of({column, row});
       if (reachable_.at({column, row}) != 0 && box_in_world.contains(place)) {
         places.push_back(place);
