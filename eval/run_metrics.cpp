@@ -52,7 +52,8 @@ void add_errors(Json& json, const std::optional<SketchErrors>& errors) {
   json["scored_poses"] = errors ? errors->scored : 0;
   add("share_within_1_m", [](Errors e) { return e.share_within_1_m; });
   add("share_within_2_m", [](Errors e) { return e.share_within_2_m; });
-  add("share_within_reference_2_sigma", [](Errors e) { return e.share_within_uncertainty; });
+  add("share_within_reference_2_sigma",
+      [](Errors e) { return or_null(e.share_within_uncertainty); });
   add("translation_error_m", [](Errors e) { return json_of(e.translation_m); });
   add("translation_error_px", [](Errors e) { return json_of(e.translation_px); });
   add("heading_error_deg", [](Errors e) { return json_in_degrees(e.heading_rad); });

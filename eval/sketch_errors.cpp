@@ -156,7 +156,11 @@ SketchErrors summarize_sketch_errors(std::span<const StepError> errors,
   const auto of_uncertainty = [](const StepError& e) {
     return e.translation_m - 2.0 * e.uncertainty_m;
   };
-  summary.share_within_uncertainty = share_within(collect(errors, of_uncertainty), 0.0);
+  const bool exact =
+      std::ranges::all_of(errors, [](const StepError& e) { return e.uncertainty_m == 0.0; });
+  if (!exact) {
+    summary.share_within_uncertainty = share_within(collect(errors, of_uncertainty), 0.0);
+  }
   summary.translation_px = summarize(collect(errors, &StepError::translation_px));
   summary.translation_m = summarize(translation_m);
   summary.heading_rad = summarize(collect(errors, &StepError::heading_rad));

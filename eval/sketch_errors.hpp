@@ -54,7 +54,8 @@ struct SketchErrors {
   std::size_t scored = 0;
   double share_within_1_m = 0.0;  ///< of the scored steps, in [0, 1]
   double share_within_2_m = 0.0;
-  double share_within_uncertainty = 0.0;  ///< error at most twice the reference's own sigma
+  /// Error at most twice the reference's own sigma; none where the reference is exact.
+  std::optional<double> share_within_uncertainty;
   std::optional<ErrorSummary> translation_px;
   std::optional<ErrorSummary> translation_m;
   std::optional<ErrorSummary> heading_rad;

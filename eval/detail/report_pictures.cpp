@@ -6,6 +6,7 @@
 #include "eval/detail/raster.hpp"
 #include "eval/detail/report_model.hpp"
 #include "eval/detail/text.hpp"
+#include "motion/angles.hpp"
 
 namespace sketchloc::detail {
 namespace {
@@ -126,7 +127,8 @@ std::string moment_caption(const ReportModel& model, const Moment& moment) {
   std::string html = "<figcaption><span class=\"badge inline\">" + moment.letter + "</span> " +
                      duration(model.seconds_since_start(model.record.steps[moment.index].time_s));
   if (moment.error) {
-    html += " &#183; " + with_unit(moment.error->translation_m, "m") + " off";
+    html += " &#183; " + with_unit(moment.error->translation_m, "m") + ", " +
+            fixed(deg_from_rad(moment.error->heading_rad), 0) + "&#176; off";
   }
   if (!moment.reason.empty()) {
     html += " &#183; <strong>" + moment.reason + "</strong>";

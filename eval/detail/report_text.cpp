@@ -111,16 +111,17 @@ std::string nees_text(const NeesSummary& nees) {
 
 std::string error_rows(const ReportModel& model) {
   const SketchErrors& errors = model.summary;
-  const bool reference_is_exact = std::ranges::all_of(
-      model.errors, [](const StepError& error) { return error.uncertainty_m == 0.0; });
+  const LossDefinition& loss = model.record.loss;
   std::string html =
       row("scored steps", fixed(static_cast<double>(errors.scored), 0)) +
       row("within 1 m / 2 m",
           percent(errors.share_within_1_m) + " / " + percent(errors.share_within_2_m)) +
-      (reference_is_exact
-           ? std::string()
-           : row("within 2&#963; of the reference", percent(errors.share_within_uncertainty))) +
-      row("first lost", errors.first_loss_s ? "after " + duration(*errors.first_loss_s) : "never") +
+      (errors.share_within_uncertainty
+           ? row("within 2&#963; of the reference", percent(*errors.share_within_uncertainty))
+           : std::string()) +
+      row("first lost (" + short_number(loss.bound_m) + " m off for " +
+              short_number(loss.lasting_m) + " m of driving)",
+          errors.first_loss_s ? "after " + duration(*errors.first_loss_s) : "never") +
       row("lost at the end", errors.lost_at_end ? "yes" : "no") +
       row("estimated / reference scale, median", fixed(errors.median_scale_ratio, 2));
   if (errors.position_nees) {

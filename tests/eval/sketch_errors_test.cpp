@@ -135,7 +135,7 @@ TEST(SketchErrors, SummarizeARunWorkedOutByHand) {
   EXPECT_EQ(summary.scored, 4U);
   EXPECT_DOUBLE_EQ(summary.share_within_1_m, 0.5);
   EXPECT_DOUBLE_EQ(summary.share_within_2_m, 0.75);
-  EXPECT_DOUBLE_EQ(summary.share_within_uncertainty, 0.0);  // an exact reference forgives nothing
+  EXPECT_FALSE(summary.share_within_uncertainty);  // an exact reference has none
   EXPECT_NEAR(summary.translation_m->median, 1.25, kTolerance);
   EXPECT_NEAR(summary.translation_px->max, 40.0, kTolerance);
   EXPECT_NEAR(summary.median_scale_ratio, 1.0, kTolerance);
