@@ -4,7 +4,7 @@
 # Usage: docs/results/kth.sh OUT_DIR [SEEDS]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-sketchloc=${SKETCHLOC:-$here/build/dev/apps/sketchloc}
+sketchloc=${SKETCHLOC:-$here/build/release/apps/sketchloc}
 kth=${SKETCHLOC_DATA:-$here/../shared/data}/sketches/kth
 work=${1:?usage: kth.sh OUT_DIR [SEEDS]}
 seeds=${2:-5}

@@ -3,7 +3,7 @@
 # Usage: docs/results/odometry.sh
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-sketchloc=${SKETCHLOC:-$here/build/dev/apps/sketchloc}
+sketchloc=${SKETCHLOC:-$here/build/release/apps/sketchloc}
 data=${SKETCHLOC_DATA:-$here/../shared/data}
 
 evaluate() { # LOG OPTIONS...

@@ -3,7 +3,7 @@
 # Needs the development data in $SKETCHLOC_DATA. Usage: docs/results/real.sh OUT_DIR [SEEDS]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-sketchloc=${SKETCHLOC:-$here/build/dev/apps/sketchloc}
+sketchloc=${SKETCHLOC:-$here/build/release/apps/sketchloc}
 data=${SKETCHLOC_DATA:-$here/../shared/data}
 out=${1:?usage: real.sh OUT_DIR [SEEDS]}
 seeds=${2:-20}

@@ -3,7 +3,7 @@
 # ones need the development data in $SKETCHLOC_DATA. Usage: docs/results/simulator.sh [COUNT]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
-sketchloc=${SKETCHLOC:-$here/build/dev/apps/sketchloc}
+sketchloc=${SKETCHLOC:-$here/build/release/apps/sketchloc}
 data=${SKETCHLOC_DATA:-$here/../shared/data}
 count=${1:-200}
 
