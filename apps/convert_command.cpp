@@ -7,9 +7,7 @@
 #include <array>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
-#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -24,32 +22,13 @@ namespace sketchloc {
 namespace {
 
 namespace fs = std::filesystem;
-using Polarity = SketchReading::Polarity;
-
-const std::map<std::string, Polarity> kPolarities = {{"dark-on-light", Polarity::DarkOnLight},
-                                                     {"light-on-dark", Polarity::LightOnDark}};
-const std::map<std::string, Sketch::Kind> kKinds = {
-    {"strokes", Sketch::Kind::Strokes}, {"filled-free-space", Sketch::Kind::FilledFreeSpace}};
-
 struct ConvertOptions {
   fs::path input;
   fs::path output;
   RunReading run;
-  std::optional<std::string> polarity;
-  std::optional<std::string> drawn;
+  SketchReading drawing;
   bool force = false;
 };
-
-SketchReading sketch_reading(const ConvertOptions& options) {
-  SketchReading reading;
-  if (options.polarity) {
-    reading.polarity = kPolarities.at(*options.polarity);
-  }
-  if (options.drawn) {
-    reading.kind = kKinds.at(*options.drawn);
-  }
-  return reading;
-}
 
 Run read_log(const ConvertOptions& options) {
   RunFile file = read_run_file(options.input, options.run);
@@ -59,6 +38,7 @@ Run read_log(const ConvertOptions& options) {
   return std::move(file.run);
 }
 
+/// Packed where the name ends in .gz.
 void convert_to_json_lines(const ConvertOptions& options) {
   const Run run = read_log(options);
   write_jsonl(options.output, run);
@@ -78,7 +58,7 @@ void convert_to_odometry(const ConvertOptions& options) {
 }
 
 void convert_to_picture(const ConvertOptions& options) {
-  const Sketch sketch = read_any_drawing(options.input, sketch_reading(options));
+  const Sketch sketch = read_any_drawing(options.input, options.drawing);
   write_sketch(options.output, sketch);
   std::cout << (sketch.kind == Sketch::Kind::Strokes ? "strokes" : "filled-free-space") << ", "
             << sketch.width_px() << " x " << sketch.height_px() << " px in "
@@ -90,17 +70,23 @@ struct Conversion {
   void (*convert)(const ConvertOptions&);
 };
 
-constexpr std::array kConversions = {Conversion{".jsonl", convert_to_json_lines},
-                                     Conversion{".tum", convert_to_odometry},
-                                     Conversion{".png", convert_to_picture}};
+constexpr std::array kConversions = {
+    Conversion{".jsonl", convert_to_json_lines}, Conversion{".jsonl.gz", convert_to_json_lines},
+    Conversion{".tum", convert_to_odometry}, Conversion{".png", convert_to_picture}};
 
 void convert(const ConvertOptions& options) {
-  const std::string extension = options.output.extension();
-  const auto found = std::ranges::find(kConversions, extension, &Conversion::extension);
+  const std::string name = options.output.filename();
+  const auto found = std::ranges::find_if(kConversions, [&](const Conversion& conversion) {
+    return name.ends_with(conversion.extension);
+  });
   if (found == kConversions.end()) {
     throw std::invalid_argument(options.output.string() +
-                                ": the name must end in .jsonl (log), .tum (its odometry) or .png "
-                                "(drawing)");
+                                ": the name must end in .jsonl or .jsonl.gz (log), .tum (its "
+                                "odometry) or .png (drawing)");
+  }
+  if (fs::exists(options.output) && fs::equivalent(options.input, options.output)) {
+    throw std::invalid_argument(options.output.string() +
+                                ": is the input itself; choose another name for the output");
   }
   if (!options.force && fs::exists(options.output)) {
     throw std::invalid_argument(options.output.string() +
@@ -111,12 +97,7 @@ void convert(const ConvertOptions& options) {
 
 void add_algorithm_options(CLI::App& command, ConvertOptions& options) {
   add_read_options(command, options.run);
-  command.add_option("--polarity", options.polarity, "Of the drawing; else found")
-      ->check(CLI::IsMember(&kPolarities))
-      ->group(kAlgorithmGroup);
-  command.add_option("--drawn", options.drawn, "What the person drew; else found")
-      ->check(CLI::IsMember(&kKinds))
-      ->group(kAlgorithmGroup);
+  add_drawing_options(command, options.drawing, "Of the drawing");
 }
 
 }  // namespace
@@ -131,7 +112,8 @@ void add_convert_command(CLI::App& program) {
       ->check(CLI::ExistingFile)
       ->type_name("FILE")
       ->required();
-  command->add_option("output", options->output, "File that ends in .jsonl, .tum or .png")
+  command
+      ->add_option("output", options->output, "File that ends in .jsonl, .jsonl.gz, .tum or .png")
       ->type_name("FILE")
       ->required();
   add_algorithm_options(*command, *options);

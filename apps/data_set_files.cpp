@@ -42,7 +42,7 @@ void write_data_set(const std::filesystem::path& folder, const DataSet& data_set
   write_reference(folder / "reference.csv", data_set.reference, sketch.height_px());
   write_tum(folder / "truth.tum", data_set.world_from_robot);
   write_path_picture(folder / "picture.png", sketch, path_in_sketch);
-  write_atomically(folder / "world.yaml", run_file_text(made_by));
+  write_atomically(folder / "run.yaml", run_file_text(made_by));
 }
 
 }  // namespace sketchloc

@@ -1,8 +1,10 @@
 #include "apps/evaluate_command.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,8 +16,11 @@
 #include "apps/config.hpp"
 #include "apps/evaluate_log.hpp"
 #include "apps/evaluate_runs.hpp"
+#include "apps/input_checks.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/program.hpp"
+#include "apps/read_options.hpp"
 #include "apps/result_files.hpp"
 #include "apps/run_file.hpp"
 #include "datasets/io/atomic_file.hpp"
@@ -36,6 +41,7 @@ struct EvaluateOptions {
   fs::path run;
   fs::path log;
   fs::path map;
+  SketchReading drawing;
   fs::path reference;
   std::vector<fs::path> alternatives;
   fs::path relations;
@@ -96,7 +102,8 @@ Evaluation evaluate_trajectory(const EvaluateOptions& options) {
                          options.max_gap_s, relative_params(options));
   if (metrics.matched == 0) {
     throw std::runtime_error(
-        fmt::format("{}: no pose within {} s of one in {}; check that both have the same clock, or "
+        fmt::format("{}: the times do not overlap: no pose within {} s of one in {}; check that "
+                    "both have the same clock, or "
                     "give a larger --max-gap",
                     options.trajectory.string(), options.max_gap_s, options.reference.string()));
   }
@@ -111,11 +118,58 @@ Evaluation evaluate_trajectory(const EvaluateOptions& options) {
   return {.table = table, .json = to_json(metrics)};
 }
 
+PictureSize size_of(const Sketch& sketch) {
+  return {.width_px = sketch.width_px(), .height_px = sketch.height_px()};
+}
+
+std::string text_of(const PictureSize& size) {
+  return std::to_string(size.width_px) + " x " + std::to_string(size.height_px) + " px";
+}
+
+/// Of the drawing that a run was in: the reference counts its rows from the top.
+PictureSize drawing_size(const EvaluateOptions& options) {
+  const auto run = read_run_description(options.run / "run.yaml");
+  const bool is_known = run && run->drawing;
+  if (options.map.empty() && !is_known) {
+    throw std::invalid_argument((options.run / "run.yaml").string() +
+                                ": does not state the size of the drawing; give --map DRAWING");
+  }
+  if (options.map.empty()) {
+    return *run->drawing;
+  }
+  const PictureSize given = size_of(read_any_drawing(options.map, options.drawing));
+  if (is_known && *run->drawing != given) {
+    throw std::invalid_argument(options.map.string() + ": is " + text_of(given) +
+                                ", but the run was in a drawing of " + text_of(*run->drawing) +
+                                "; leave out --map");
+  }
+  return given;
+}
+
+Reference read_reference_of(const EvaluateOptions& options, const RunRecord& record,
+                            int height_px) {
+  Reference reference = read_reference(options.reference, height_px);
+  std::vector<double> scan_times_s;
+  for (const StepReport& report : record.steps) {
+    scan_times_s.resize(report.step + 1, std::nan(""));
+    scan_times_s.back() = report.time_s;
+  }
+  if (is_of_another_run(reference, scan_times_s)) {
+    throw std::runtime_error(options.reference.string() +
+                             ": its times are not those of the run; give the reference of the "
+                             "same log");
+  }
+  for (const std::string& doubt : doubts_about(reference, scan_times_s)) {
+    spdlog::warn("{}: {}", options.reference.string(), doubt);
+  }
+  return reference;
+}
+
 Evaluation evaluate_run(const EvaluateOptions& options) {
-  const int height_px = read_any_drawing(options.map).height_px();
+  const int height_px = drawing_size(options).height_px;
   RunRecord record;
   record.steps = read_step_table(options.run / "trajectory.csv");
-  record.reference = read_reference(options.reference, height_px);
+  record.reference = read_reference_of(options, record, height_px);
   record.loss = options.loss;
   for (const fs::path& csv : options.alternatives) {
     record.alternatives.push_back(
@@ -153,10 +207,6 @@ void check_inputs(const EvaluateOptions& options) {
     throw std::invalid_argument(log_alone ? "--log with --reference needs --map DRAWING as well"
                                           : "evaluate needs --reference REF.tum|REF.csv");
   }
-  if (!options.run.empty() && options.map.empty()) {
-    throw std::invalid_argument(
-        "--run needs --map DRAWING as well: the reference counts its rows from the top");
-  }
   if (!log_alone && !options.relations.empty()) {
     throw std::invalid_argument("--relations belong to --log without --map");
   }
@@ -176,6 +226,9 @@ RunDescription description_of(const EvaluateOptions& options) {
   add("run", options.run.string());
   add("log", options.log.string());
   add("map", options.map.string());
+  for (const auto& [option, value] : given_drawing_options(options.drawing)) {
+    description.inputs.emplace_back(option, value);
+  }
   add("relations", options.relations.string());
   for (const fs::path& csv : options.alternatives) {
     add("alternative", csv.string());
@@ -199,7 +252,8 @@ Evaluation evaluate(const EvaluateOptions& options) {
     return evaluate_trajectory(options);
   }
   if (!options.map.empty()) {
-    return evaluate_scans(options.log, options.map, options.reference);
+    return evaluate_scans(options.log, read_any_drawing(options.map, options.drawing),
+                          options.reference);
   }
   return evaluate_odometry(options.log, options.relations, {.max_gap_s = options.max_gap_s});
 }
@@ -247,7 +301,9 @@ void add_algorithm_options(CLI::App& command, EvaluateOptions& options) {
   option("--reference", options.reference,
          "What to compare with: a trajectory, or the poses in the drawing")
       ->type_name("REF.tum|REF.csv");
-  option("--map", options.map, "The drawing of the run")->type_name("DRAWING");
+  option("--map", options.map, "The drawing of --log; of --run only where its run.yaml lacks it")
+      ->type_name("DRAWING");
+  add_drawing_options(command, options.drawing, "Of the drawing");
   option("--alternative", options.alternatives,
          "Another reading of the drawing that counts as right too")
       ->type_name("ALT.csv");
@@ -260,12 +316,17 @@ void add_algorithm_options(CLI::App& command, EvaluateOptions& options) {
          "Of --runs: print the paired differences to this folder's runs too")
       ->type_name("DIR");
   option("--max-gap", options.max_gap_s, "Between the times of two poses of a pair, s")
-      ->check(CLI::NonNegativeNumber)
+      ->check(non_negative_number())
       ->capture_default_str();
-  option("--delta-m", options.deltas_m, "Ways for the relative error, m")->capture_default_str();
+  option("--delta-m", options.deltas_m, "Ways for the relative error, m")
+      ->check(positive_number())
+      ->capture_default_str();
   option("--delta-frames", options.deltas_frames, "Numbers of poses for the relative error")
+      ->check(whole_number())
+      ->check(positive_number())
       ->capture_default_str();
   option("--lost-beyond", options.loss.bound_m, "Error that counts as lost, m")
+      ->check(positive_number())
       ->capture_default_str();
 }
 

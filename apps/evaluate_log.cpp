@@ -9,7 +9,6 @@
 #include "datasets/io/corrected_poses.hpp"
 #include "datasets/io/reference_io.hpp"
 #include "datasets/io/run_io.hpp"
-#include "datasets/io/sketch_io.hpp"
 #include "datasets/sim/scan_agreement.hpp"
 #include "motion/angles.hpp"
 
@@ -127,8 +126,7 @@ Evaluation evaluate_odometry(const fs::path& log, const fs::path& relations,
   return {.table = table_of(found), .json = json_text(found)};
 }
 
-Evaluation evaluate_scans(const fs::path& log, const fs::path& map, const fs::path& reference) {
-  const Sketch sketch = read_any_drawing(map);
+Evaluation evaluate_scans(const fs::path& log, const Sketch& sketch, const fs::path& reference) {
   const Reference poses = read_reference(reference, sketch.height_px());
   const Run run = read_run(log);
   if (!poses.poses.empty() && poses.poses.back().step >= run.steps.size()) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <string>
 
+#include "datasets/sketch.hpp"
 #include "eval/odometry_comparison.hpp"
 
 namespace sketchloc {
@@ -20,7 +21,7 @@ Evaluation evaluate_odometry(const std::filesystem::path& log,
                              const OdometryComparisonParams& params);
 
 /// How well the scans of a log fit a drawing where a reference has the robot.
-Evaluation evaluate_scans(const std::filesystem::path& log, const std::filesystem::path& map,
+Evaluation evaluate_scans(const std::filesystem::path& log, const Sketch& sketch,
                           const std::filesystem::path& reference);
 
 }  // namespace sketchloc

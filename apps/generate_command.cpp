@@ -17,11 +17,13 @@
 #include "apps/generate_params.hpp"
 #include "apps/given_drawing.hpp"
 #include "apps/interrupt.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/parallel.hpp"
 #include "apps/parameter_options.hpp"
 #include "apps/program.hpp"
 #include "apps/progress.hpp"
+#include "apps/read_options.hpp"
 #include "apps/statistics_table.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/sketch_io.hpp"
@@ -48,6 +50,7 @@ struct GenerateOptions {
   fs::path map;
   std::optional<double> cell_m;
   fs::path drawing;
+  SketchReading reading;  ///< of the drawing, or without one of the map
   std::vector<fs::path> correspondences;
   std::uint64_t seed = 1;
   std::size_t count = 1;
@@ -75,7 +78,8 @@ std::optional<RealMap> read_map(const GenerateOptions& options) {
   if (options.map.empty()) {
     return std::nullopt;
   }
-  Sketch map = read_any_drawing(options.map);
+  Sketch map =
+      read_any_drawing(options.map, options.drawing.empty() ? options.reading : SketchReading{});
   if (!map.px_per_m && !options.cell_m) {
     throw std::invalid_argument(options.map.string() +
                                 ": a picture has no scale; give --cell-m, the side of a pixel in "
@@ -91,7 +95,7 @@ class Generator {
   explicit Generator(const GenerateOptions& options)
       : options_(options), params_(parameters_of(options)), map_(read_map(options)) {
     if (!options.drawing.empty()) {
-      given_ = read_given_drawing(options.drawing, options.correspondences,
+      given_ = read_given_drawing(options.drawing, options.reading, options.correspondences,
                                   building_of(options.seed).map);
     }
   }
@@ -133,6 +137,9 @@ class Generator {
     } else {
       made_by.inputs.emplace_back("person", options_.person);
     }
+    for (const auto& [option, value] : given_drawing_options(options_.reading)) {
+      made_by.inputs.emplace_back(option, value);
+    }
     if (map_) {
       made_by.inputs.emplace_back("map", options_.map.string());
       made_by.inputs.emplace_back("cell-m", to_config(map_->cell_m).text);
@@ -171,12 +178,18 @@ class Generator {
             .person = drawn ? std::optional(params_.person) : std::nullopt,
             .drive = params_.drive,
             .lidar = params_.lidar,
-            .odometry = params_.odometry};
+            .odometry = params_.odometry,
+            .checkpoint = throw_if_interrupted};
   }
 
   Building building_of(std::uint64_t seed) const {
     Rng rng = make_rng(seed);
-    return building_from_map(map_->occupied, map_->cell_m, rng, params_.map_reading);
+    try {
+      return building_from_map(map_->occupied, map_->cell_m, rng, params_.map_reading);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(options_.map.string() + ": " + error.what() +
+                                  "; check --cell-m, or give a larger --map_reading.max_side_m");
+    }
   }
 
   const GenerateOptions& options_;
@@ -201,9 +214,11 @@ void generate_files(const GenerateOptions& options) {
   };
   work_in_parallel(options.count, options.jobs, generate_one,
                    [&](std::size_t done) { progress.update(done); });
-  RunDescription run = generator.description(options.seed);
-  run.inputs.emplace_back("count", std::to_string(options.count));
-  write_atomically(out / "run.yaml", run_file_text(run));
+  if (options.count > 1) {  // else it is there already
+    RunDescription run = generator.description(options.seed);
+    run.inputs.emplace_back("count", std::to_string(options.count));
+    write_atomically(out / "run.yaml", run_file_text(run));
+  }
   out.commit();
   std::cout << options.count << (options.count == 1 ? " data set in " : " data sets in ")
             << out.target().string() << "\n";
@@ -245,16 +260,18 @@ void add_algorithm_options(CLI::App& command, GenerateOptions& options) {
     return command.add_option(flag, value, help)->group(kAlgorithmGroup);
   };
   option("--kind", options.kind, "Building: home, office or warehouse")
-      ->check(CLI::IsMember(&kBuildingKinds))
+      ->check(one_of(kBuildingKinds))
       ->capture_default_str();
   option("--person", options.person,
          "Who draws: human (as people do), tps (the plan under one thin plate spline) or none (the "
          "true map)")
-      ->check(CLI::IsMember(&kPersonKinds))
+      ->check(one_of(kPersonKinds))
       ->capture_default_str();
   option("--seed", options.seed, "Of the first data set; the next ones count on")
+      ->check(whole_number())
       ->capture_default_str();
   option("--count", options.count, "Data sets to make")
+      ->check(whole_number())
       ->check(CLI::Range(1, 1'000'000))
       ->capture_default_str();
 }
@@ -269,7 +286,8 @@ void add_map_options(CLI::App& command, GenerateOptions& options) {
           ->check(CLI::ExistingFile)
           ->type_name("FILE");
   option("--cell-m", options.cell_m, "Side of a pixel of --map in metres")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
+  map->excludes(command.get_option("--kind"));
   CLI::Option* drawing = option("--drawing", options.drawing,
                                 "Somebody's drawing of --map instead of a simulated person's")
                              ->check(CLI::ExistingFile)
@@ -282,6 +300,7 @@ void add_map_options(CLI::App& command, GenerateOptions& options) {
           ->allow_extra_args(false)
           ->needs(drawing)
           ->type_name("PAIRS.csv");
+  add_drawing_options(command, options.reading, "Of --drawing, or without it of --map");
   drawing->needs(correspondences)->excludes(command.get_option("--person"));
 }
 

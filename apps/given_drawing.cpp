@@ -6,7 +6,6 @@
 
 #include "apps/config.hpp"
 #include "datasets/io/correspondence_io.hpp"
-#include "datasets/io/sketch_io.hpp"
 
 namespace sketchloc {
 namespace {
@@ -49,10 +48,10 @@ double share_of(std::size_t part, std::size_t whole) {
 
 }  // namespace
 
-GivenDrawing read_given_drawing(const std::filesystem::path& drawing,
+GivenDrawing read_given_drawing(const std::filesystem::path& drawing, const SketchReading& reading,
                                 std::span<const std::filesystem::path> correspondences,
                                 const MetricMap& map) {
-  GivenDrawing given{.drawing = {.sketch = read_any_drawing(drawing)}, .fit = {}};
+  GivenDrawing given{.drawing = {.sketch = read_any_drawing(drawing, reading)}, .fit = {}};
   std::vector<PlacePair> places;
   for (const std::filesystem::path& csv : correspondences) {
     for (const Correspondence& pair :

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "apps/config_node.hpp"
+#include "datasets/io/sketch_io.hpp"
 #include "datasets/sim/building.hpp"
 #include "datasets/sim/correspondence_fit.hpp"
 #include "datasets/sim/data_set.hpp"
@@ -18,7 +19,7 @@ struct GivenDrawing {
 
 /// Reads the drawing and the places that were found in it and in the map's picture, all files
 /// together, and fits the drawing's distortion. Throws std::runtime_error where they allow none.
-GivenDrawing read_given_drawing(const std::filesystem::path& drawing,
+GivenDrawing read_given_drawing(const std::filesystem::path& drawing, const SketchReading& reading,
                                 std::span<const std::filesystem::path> correspondences,
                                 const MetricMap& map);
 

@@ -10,7 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/input_checks.hpp"
 #include "apps/memory.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/parallel.hpp"
 #include "apps/program.hpp"
@@ -22,20 +24,15 @@
 #include "datasets/io/reference_io.hpp"
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/sketch_io.hpp"
+#include "motion/number_text.hpp"
 
 namespace sketchloc {
-
 namespace {
 
 const std::map<std::string, Method> kMethods = {{"mcl", Method::Mcl},
                                                 {"odometry", Method::Odometry}};
 const std::map<std::string, OdometrySource> kOdometrySources = {
     {"matched", OdometrySource::Matched}, {"raw", OdometrySource::Raw}};
-
-template <typename T>
-std::string name_of(const std::map<std::string, T>& names, T value) {
-  return std::ranges::find(names, value, &std::pair<const std::string, T>::second)->first;
-}
 
 void check_starts(const LocalizeOptions& options) {
   const int starts = (options.start.empty() ? 0 : 1) + (options.start_from_reference ? 1 : 0) +
@@ -52,25 +49,59 @@ void check_starts(const LocalizeOptions& options) {
   }
 }
 
+void warn(const std::filesystem::path& file, const std::vector<std::string>& doubts) {
+  for (const std::string& doubt : doubts) {
+    spdlog::warn("{}: {}", file.string(), doubt);
+  }
+}
+
+Reference read_reference_of(const LocalizeOptions& options, const RunRecord& record) {
+  Reference reference = read_reference(options.reference, record.sketch.height_px());
+  std::vector<double> scan_times_s;
+  for (const RunStep& step : record.run.steps) {
+    scan_times_s.push_back(step.scan.time_s);
+  }
+  if (is_of_another_run(reference, scan_times_s)) {
+    throw std::runtime_error(options.reference.string() + ": its times are not those of " +
+                             options.log.string() + "; give the reference of this log");
+  }
+  warn(options.reference, doubts_about(reference, scan_times_s));
+  return reference;
+}
+
 /// Reads all inputs into the record of the run.
 RunRecord read_inputs(const LocalizeOptions& options) {
   RunRecord record;
   record.seed = options.seed;
   record.commit = std::string(commit());
-  record.sketch = read_any_drawing(options.map);
+  record.sketch = read_any_drawing(options.map, options.drawing);
+  warn(options.map, doubts_about(record.sketch));
   RunFile log = read_run_file(options.log, options.reading);
   for (const std::string& note : log.notes) {
     spdlog::info("{}", note);
   }
   record.run = std::move(log.run);
+  warn(options.log, doubts_about(record.run));
   if (!options.reference.empty()) {
-    record.reference = read_reference(options.reference, record.sketch.height_px());
+    record.reference = read_reference_of(options, record);
     for (const std::filesystem::path& csv : options.alternatives) {
       record.alternatives.push_back(
           as_reference(read_alternative(csv, record.sketch.height_px()), *record.reference));
     }
   }
   return record;
+}
+
+/// The scale that was typed must make a building of the drawing.
+void check_scale(const LocalizeOptions& options, const Sketch& sketch, double px_per_m) {
+  constexpr double kSmallest_m = 1.0;
+  constexpr double kLargest_m = 10'000.0;
+  const double side_m = std::max(sketch.width_px(), sketch.height_px()) / px_per_m;
+  if (side_m < kSmallest_m || side_m > kLargest_m) {
+    throw std::invalid_argument(
+        "--start " + options.start + ": with that PX_PER_M the longer side of " +
+        options.map.string() + " is " + number_text(side_m) + " m; it must be from 1 m to 10000 m");
+  }
 }
 
 Sim2 typed_start(const LocalizeOptions& options, const RunRecord& record) {
@@ -83,6 +114,9 @@ Sim2 typed_start(const LocalizeOptions& options, const RunRecord& record) {
                                 options.map.string() + ", which is " +
                                 std::to_string(sketch.width_px()) + " px wide and " +
                                 std::to_string(sketch.height_px()) + " px high");
+  }
+  if (start.px_per_m) {
+    check_scale(options, sketch, *start.px_per_m);
   }
   std::optional<double> px_per_m = start.px_per_m ? start.px_per_m : sketch.px_per_m;
   if (!px_per_m) {
@@ -179,14 +213,17 @@ std::string start_text(const LocalizeOptions& options) {
 }
 
 /// Everything that was given and that the result depends on.
-RunDescription description_of(const LocalizeOptions& options, const LocalizationParams& params) {
-  RunDescription description{.command = "localize",
-                             .seed = options.seed,
-                             .inputs = {{"map", options.map.string()},
-                                        {"log", options.log.string()},
-                                        {"method", name_of(kMethods, options.method)},
-                                        {"odometry", name_of(kOdometrySources, options.odometry)}},
-                             .parameters = to_config(params)};
+RunDescription description_of(const LocalizeOptions& options, const LocalizationParams& params,
+                              const Sketch& sketch) {
+  RunDescription description{
+      .command = "localize",
+      .seed = options.seed,
+      .inputs = {{"map", options.map.string()},
+                 {"log", options.log.string()},
+                 {"method", name_of(kMethods, options.method)},
+                 {"odometry", name_of(kOdometrySources, options.odometry)}},
+      .parameters = to_config(params),
+      .drawing = PictureSize{.width_px = sketch.width_px(), .height_px = sketch.height_px()}};
   const auto add = [&](const char* option, const std::string& value) {
     if (!value.empty()) {
       description.inputs.emplace_back(option, value);
@@ -198,6 +235,9 @@ RunDescription description_of(const LocalizeOptions& options, const Localization
   add("max-range-m",
       options.reading.max_range_m ? to_config(*options.reading.max_range_m).text : "");
   add("allow-truncated", options.reading.allow_truncated ? "true" : "");
+  for (const auto& [option, value] : given_drawing_options(options.drawing)) {
+    description.inputs.emplace_back(option, value);
+  }
   add("reference", options.reference.string());
   for (const std::filesystem::path& csv : options.alternatives) {
     add("alternative", csv.string());
@@ -226,6 +266,7 @@ void add_start_options(CLI::App& command, LocalizeOptions& options) {
           .add_option("--start", options.start,
                       "Where the robot starts in the drawing: x right and y up from the lower left "
                       "corner in px, heading counter-clockwise")
+          ->check([](const std::string& text) { return parse_start_pose(text), std::string(); })
           ->group(kAlgorithmGroup)
           ->type_name("X,Y,HEADING_DEG[,PX_PER_M]");
   CLI::Option* from_reference =
@@ -251,14 +292,16 @@ void add_algorithm_options(CLI::App& command, LocalizeOptions& options) {
       ->required()
       ->type_name("LOG");
   add_read_options(command, options.reading);
+  add_drawing_options(command, options.drawing, "Of the drawing");
   add_start_options(command, options);
-  option("--method", options.method, "mcl, or odometry: dead reckoning from the start")
-      ->transform(CLI::CheckedTransformer(kMethods, CLI::ignore_case).description(""))
-      ->type_name("NAME");
-  option("--odometry", options.odometry, "matched (refined by scan matching) or raw")
-      ->transform(CLI::CheckedTransformer(kOdometrySources, CLI::ignore_case).description(""))
-      ->type_name("NAME");
+  add_named_option(command, "--method", options.method, kMethods,
+                   "mcl, or odometry: dead reckoning from the start")
+      ->group(kAlgorithmGroup);
+  add_named_option(command, "--odometry", options.odometry, kOdometrySources,
+                   "matched (refined by scan matching) or raw")
+      ->group(kAlgorithmGroup);
   option("--seed", options.seed, "Of all randomness; the same seed gives the same result")
+      ->check(whole_number())
       ->capture_default_str();
 }
 
@@ -282,8 +325,9 @@ void add_other_options(CLI::App& command, LocalizeOptions& options) {
 
 /// The defaults for the --map that was given, as far as it was.
 ConfigNode default_parameters(const LocalizeOptions& options) {
-  return to_config(options.map.empty() ? LocalizationParams{}
-                                       : defaults_for(read_any_drawing(options.map)));
+  return to_config(options.map.empty()
+                       ? LocalizationParams{}
+                       : defaults_for(read_any_drawing(options.map, options.drawing)));
 }
 
 }  // namespace
@@ -295,7 +339,7 @@ void run_localize(const LocalizeOptions& options) {
   const LocalizationParams params = parameters_for(record.sketch, options);
   localize_into(record, options, params);
   describe(record, options, params);
-  write_result_files(out, record, description_of(options, params));
+  write_result_files(out, record, description_of(options, params, record.sketch));
   out.commit();
   std::cout << summary_text(record) << "report: " << (out.target() / "report.html").string()
             << "\n";

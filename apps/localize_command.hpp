@@ -8,6 +8,7 @@
 
 #include "apps/parameter_options.hpp"
 #include "datasets/io/run_io.hpp"
+#include "datasets/io/sketch_io.hpp"
 #include "eval/localization.hpp"
 
 namespace CLI {
@@ -33,7 +34,8 @@ struct LocalizeOptions {
   std::uint64_t seed = 1;
   unsigned jobs = 1;  ///< threads; 0: one per core
 
-  RunReading reading;  ///< of the log
+  RunReading reading;     ///< of the log
+  SketchReading drawing;  ///< of the map
   bool force = false;
   std::string title;  ///< of the report; empty: names of drawing and log
   ParameterOptions parameters;

@@ -39,6 +39,9 @@ fs::path make_folder_beside(const fs::path& target) {
 
 /// Without a slash at the end; where it is a link, what that points to.
 fs::path resolved(const fs::path& target) {
+  if (target.empty()) {
+    throw std::invalid_argument("--out has no name; give the folder of the results");
+  }
   const fs::path plain = fs::absolute(target / "").parent_path().lexically_normal();
   return fs::is_symlink(plain) && fs::exists(plain) ? fs::canonical(plain) : plain;
 }

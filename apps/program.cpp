@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "apps/interrupt.hpp"
+#include "apps/option_checks.hpp"
 #include "apps/recorded_options.hpp"
 #include "apps/version.hpp"
 
@@ -37,12 +39,30 @@ void add_usability_options(CLI::App& command) {
   command.set_help_flag("-h,--help", "Print this help and exit")->group(kUsabilityGroup);
   const auto quiet = [] { spdlog::set_level(spdlog::level::warn); };
   const auto verbose = [] { spdlog::set_level(spdlog::level::debug); };
-  command.add_flag_callback("-q,--quiet", quiet, "Say only what went wrong")
+  command
+      .add_flag_callback("-q,--quiet", quiet,
+                         "No progress and no notes: results, warnings and errors only")
       ->group(kUsabilityGroup);
   command.add_flag_callback("-v,--verbose", verbose, "Say more")->group(kUsabilityGroup);
 }
 
-int exit_code_of(const CLI::App& program, const CLI::ParseError& error) {
+/// CLI11 turns the order of unknown arguments round and does not name hidden options (those of
+/// parameters), whose value can be missing only at the end.
+std::string message_of(const CLI::App& program, const CLI::ParseError& error,
+                       const std::string& last_argument) {
+  const std::string message = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+    std::string unknown = "unknown:";
+    for (const std::string& argument : program.remaining(true)) {
+      unknown += " " + argument;
+    }
+    return unknown;
+  }
+  return message.starts_with(": ") ? last_argument + ": needs a value" : message;
+}
+
+int exit_code_of(const CLI::App& program, const CLI::ParseError& error,
+                 const std::string& last_argument) {
   if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
     program.exit(error);  // prints help or version to stdout
     return kDone;
@@ -51,7 +71,8 @@ int exit_code_of(const CLI::App& program, const CLI::ParseError& error) {
   const bool unknown_command = chosen.empty() && program.remaining_size() > 0;
   const std::string command = chosen.empty() ? "" : " " + chosen.front()->get_name();
   std::cerr << "sketchloc" << command << ": "
-            << (unknown_command ? "unknown command " + program.remaining().front() : error.what())
+            << (unknown_command ? "unknown command " + program.remaining().front()
+                                : message_of(program, error, last_argument))
             << "\nRun sketchloc" << command << " --help for its options.\n";
   return kWrongUsage;
 }
@@ -62,6 +83,7 @@ void add_jobs_option(CLI::App& command, unsigned& jobs) {
   command
       .add_option("-j,--jobs", jobs,
                   "Threads, 0: one per core; the result does not depend on their number")
+      ->check(whole_number())
       ->group(kUsabilityGroup)
       ->capture_default_str();
 }
@@ -88,13 +110,17 @@ int run_program(int argc, const char* const* argv, std::span<const AddCommand> c
     program.parse(std::move(arguments));
     return kDone;
   } catch (const CLI::ParseError& error) {
-    return exit_code_of(program, error);
+    return exit_code_of(program, error, argc > 0 ? argv[argc - 1] : "");
   } catch (const Interrupted& error) {
     spdlog::warn("{}", error.what());
     return kInterrupted;
   } catch (const std::invalid_argument& error) {
     spdlog::error("{}", error.what());
     return kWrongUsage;
+  } catch (const std::filesystem::filesystem_error& error) {
+    spdlog::error("{}: {}; check the path and who may use it", error.path1().string(),
+                  error.code().message());
+    return kDataFailed;
   } catch (const std::exception& error) {
     spdlog::error("{}", error.what());
     return kDataFailed;

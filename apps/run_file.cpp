@@ -36,6 +36,10 @@ RunDescription description_in(const YAML::Node& yaml) {
                      .seed = {},
                      .inputs = {},
                      .parameters = {}};
+  if (const YAML::Node drawing = yaml["drawing"]) {
+    run.drawing = PictureSize{.width_px = drawing["width_px"].as<int>(),
+                              .height_px = drawing["height_px"].as<int>()};
+  }
   if (yaml["seed"]) {
     run.inputs.emplace_back("seed", yaml["seed"].as<std::string>());
   }
@@ -60,6 +64,11 @@ std::string run_file_text(const RunDescription& run) {
   program.child("version").text = version();
   program.child("commit").text = commit();
   program.child("command").text = run.command;
+  if (run.drawing) {
+    ConfigNode& drawing = head.child("drawing");
+    drawing.child("width_px") = to_config(run.drawing->width_px);
+    drawing.child("height_px") = to_config(run.drawing->height_px);
+  }
   if (run.seed) {
     head.child("seed") = to_config(*run.seed);
   }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "apps/config_node.hpp"
+#include "datasets/io/correspondence_io.hpp"
 
 namespace sketchloc {
 
@@ -18,7 +19,8 @@ struct RunDescription {
   /// Everything else that was given, in order: option without dashes, value as typed (`true` for a
   /// flag). An option that was given several times stands here as often.
   std::vector<std::pair<std::string, std::string>> inputs;
-  ConfigNode parameters;  ///< all of them, from to_config
+  ConfigNode parameters;                    ///< all of them, from to_config
+  std::optional<PictureSize> drawing = {};  ///< that the run was in
 };
 
 /// The text of run.yaml: program, version, commit, then the description. It is a --config file too.

@@ -10,6 +10,8 @@ namespace sketchloc {
 struct PictureSize {
   int width_px = 0;
   int height_px = 0;
+
+  bool operator==(const PictureSize&) const = default;
 };
 
 /// Reads places that correspond (match, drawing, row, column; drawing is `sketch` or `model`) from

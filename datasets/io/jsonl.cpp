@@ -7,6 +7,7 @@
 
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/detail/columns.hpp"
+#include "datasets/io/detail/gzip.hpp"
 #include "datasets/io/detail/json_fields.hpp"
 #include "datasets/io/detail/limits.hpp"
 #include "datasets/io/detail/whole_lines.hpp"
@@ -174,7 +175,7 @@ void write_jsonl(const std::filesystem::path& log, const Run& run) {
     text += json_line(step);
     text += '\n';
   }
-  write_atomically(log, text);
+  write_atomically(log, log.extension() == ".gz" ? detail::gzipped(text) : text);
 }
 
 }  // namespace sketchloc

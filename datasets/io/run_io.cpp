@@ -51,7 +51,11 @@ void validate(const RunReading& reading) {
 RunFile read_run_file(const std::filesystem::path& log, const RunReading& reading) {
   validate(reading);
   detail::LineReader lines(log, detail::text_limits(reading));
-  const std::string_view first_line = lines.peek().value_or("");
+  const std::optional<std::string_view> first = lines.peek();
+  if (!first && !lines.cut_off()) {
+    detail::fail({.file = log}, "is empty; expected a CARMEN log or JSON lines");
+  }
+  const std::string_view first_line = first.value_or("");
   refuse_strangers(first_line, lines.place());
   const std::size_t start = first_line.find_first_not_of(" \t");
   const bool is_json = start != std::string_view::npos && first_line[start] == '{';

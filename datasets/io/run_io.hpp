@@ -52,7 +52,7 @@ RunStep parse_json_step(std::string_view line, const std::filesystem::path& sour
 /// JSON cannot say: a pose, a time or an angle that is not finite. NaN ranges become null.
 std::string json_line(const RunStep& step);
 
-/// Writes one step per line, atomically.
+/// Writes one step per line, atomically; packed by gzip where the name ends in .gz.
 void write_jsonl(const std::filesystem::path& log, const Run& run);
 
 }  // namespace sketchloc

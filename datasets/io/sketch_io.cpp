@@ -21,7 +21,7 @@ Sketch read_sketch(const std::filesystem::path& picture, const SketchReading& re
   if (ink.occupied.empty()) {
     detail::fail({.file = picture},
                  "drawing: expected strokes or painted free space, found a blank picture; raise "
-                 "the contrast, or give polarity and kind");
+                 "the contrast, or say how it is drawn with --polarity and --drawn");
   }
   return {.occupied = mask_from_image(ink.occupied), .kind = ink.kind, .px_per_m = std::nullopt};
 }

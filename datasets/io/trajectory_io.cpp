@@ -15,6 +15,9 @@ namespace {
 using detail::Columns;
 using detail::Place;
 
+constexpr std::string_view kSketchFrame = "# frame: sketch, px";
+constexpr std::string_view kTumAdvice =
+    "a run in a drawing is compared by evaluate --run DIR --reference REF.csv";
 constexpr double kNormTolerance = 1e-2;  ///< some files have four decimals
 constexpr double kTiltTolerance = 1e-3;  ///< of qx and qy, about 0.1 deg of roll or pitch
 
@@ -34,6 +37,14 @@ double read_yaw_rad(Columns& columns) {
                           "project the trajectory to the plane first");
   }
   return 2.0 * std::atan2(qz, qw);
+}
+
+/// Poses in the px of a drawing say so in a comment.
+void refuse_sketch_frame(std::string_view comment, const Place& place) {
+  if (comment.starts_with(kSketchFrame)) {
+    detail::fail_expected(place, "frame", "a trajectory in metres", "poses in the px of a drawing",
+                          kTumAdvice);
+  }
 }
 
 Stamped<Se2> parse_pose(std::string_view line, const Place& place) {
@@ -71,7 +82,11 @@ void write_lines(const std::filesystem::path& tum, std::string text,
 
 MetricTrajectory read_tum(const std::filesystem::path& tum) {
   MetricTrajectory trajectory;
-  detail::for_each_data_line(tum, [&trajectory](std::string_view line, const Place& place) {
+  const auto append = [&trajectory](std::string_view line, const Place& place) {
+    if (trajectory.empty() && line.find(',') != std::string_view::npos) {
+      detail::fail_expected(place, "poses", "t x y z qx qy qz qw, parted by blanks (TUM)",
+                            "commas (a CSV file?)", kTumAdvice);
+    }
     const Stamped<Se2> stamped = parse_pose(line, place);
     if (!trajectory.empty() && stamped.time_s <= trajectory[trajectory.size() - 1].time_s) {
       detail::fail_expected(place, "t", "a time after the one before",
@@ -79,7 +94,8 @@ MetricTrajectory read_tum(const std::filesystem::path& tum) {
                             "put the lines in order and remove doubles");
     }
     trajectory.append(stamped.time_s, stamped.pose);
-  });
+  };
+  detail::for_each_data_line(tum, append, refuse_sketch_frame);
   if (trajectory.empty()) {
     detail::fail({.file = tum}, "poses: expected lines of t x y z qx qy qz qw, found none");
   }
@@ -91,8 +107,9 @@ void write_tum(const std::filesystem::path& tum, const MetricTrajectory& traject
 }
 
 void write_tum(const std::filesystem::path& tum, const SketchTrajectory& trajectory) {
-  write_lines(tum, "# t_s x_px y_px z qx qy qz qw; frame sketch: y up, origin lower left\n",
-              trajectory);
+  write_lines(
+      tum, std::string(kSketchFrame) + "; y up, origin lower left\n# t_s x_px y_px z qx qy qz qw\n",
+      trajectory);
 }
 
 }  // namespace sketchloc

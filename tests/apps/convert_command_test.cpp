@@ -81,6 +81,22 @@ TEST_F(ConvertEndToEnd, KeepsTheWholeLinesOfATornLogIfAsked) {
   EXPECT_EQ(read_run(folder_ / "run.jsonl").steps.size(), 2U);
 }
 
+TEST_F(ConvertEndToEnd, PacksALogWhoseNameEndsInGz) {
+  write("run.log", kLog);
+  EXPECT_EQ(convert("run.log", "run.jsonl").exit_code, 0);
+  EXPECT_EQ(convert("run.log", "run.jsonl.gz").exit_code, 0);
+  EXPECT_LT(std::filesystem::file_size(folder_ / "run.jsonl.gz"),
+            std::filesystem::file_size(folder_ / "run.jsonl"));
+  EXPECT_EQ(read_run(folder_ / "run.jsonl.gz").steps.size(), 2U);
+}
+
+TEST_F(ConvertEndToEnd, NeverReplacesItsInput) {
+  write("run.jsonl", "mine");
+  const CommandResult result = convert("run.jsonl", "run.jsonl", {"--force"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("is the input itself"));
+}
+
 TEST_F(ConvertEndToEnd, NeverOverwritesWithoutForce) {
   write("run.log", kLog);
   write("run.jsonl", "mine");
@@ -92,7 +108,8 @@ TEST_F(ConvertEndToEnd, SaysWhichNamesItKnows) {
   write("run.log", kLog);
   const CommandResult result = convert("run.log", "run.bag");
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("must end in .jsonl (log), .tum (its odometry) or .png"));
+  EXPECT_THAT(result.err,
+              HasSubstr("must end in .jsonl or .jsonl.gz (log), .tum (its odometry) or .png"));
 }
 
 }  // namespace

@@ -111,7 +111,9 @@ TEST_F(EvaluateCommandEndToEnd, SaysWhatIsWrong) {
   const CommandResult later =
       evaluate({"--trajectory", file("later.tum"), "--reference", file("reference.tum")});
   EXPECT_EQ(later.exit_code, 1);
-  EXPECT_THAT(later.err, HasSubstr("--max-gap"));
+  EXPECT_THAT(later.err, HasSubstr("the times do not overlap"));
+  EXPECT_THAT(evaluate({"--trajectory", "x", "--reference", "y", "--delta-m", "-1"}).err,
+              HasSubstr("--delta-m: must be a number above 0, but it is '-1'"));
 }
 
 /// A wall 2 m ahead of a robot that drives 4 m along it; the wheels measure 10 % too much.

@@ -108,7 +108,8 @@ TEST_F(LocalizeCommandEndToEnd, WritesAFolderOfResults) {
                            "picture.png", "run.yaml"}) {
     EXPECT_GT(fs::file_size(out / file), 0U) << file;
   }
-  EXPECT_GT(read_tum(out / "trajectory.tum").size(), 5U);
+  EXPECT_THAT(content_of(out / "trajectory.tum"), HasSubstr("# frame: sketch, px"));
+  EXPECT_THROW(read_tum(out / "trajectory.tum"), std::runtime_error);  // no metres
   EXPECT_THAT(content_of(out / "metrics.json"), HasSubstr("\"share_within_2_m\""));
   EXPECT_THAT(content_of(out / "report.html"), HasSubstr("home &amp; &lt;garden&gt;.pgm"));
 }
@@ -234,8 +235,7 @@ TEST_F(LocalizeCommandEndToEnd, IsEvaluatedAgainWithTheSameFigures) {
   const fs::path out = outputs_ / "result";
   ASSERT_EQ(localize(out, with_reference()).exit_code, 0);
   const CommandResult result =
-      testing::run_command({SKETCHLOC_PROGRAM, "evaluate", "--run", out.string(), "--map",
-                            (*inputs_ / "home & <garden>.pgm").string(), "--reference",
+      testing::run_command({SKETCHLOC_PROGRAM, "evaluate", "--run", out.string(), "--reference",
                             (*inputs_ / "reference.csv").string(), "--json"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const nlohmann::json written = nlohmann::json::parse(content_of(out / "metrics.json"));
@@ -246,6 +246,53 @@ TEST_F(LocalizeCommandEndToEnd, IsEvaluatedAgainWithTheSameFigures) {
   EXPECT_NEAR(again.at("heading_error_deg").at("mean").get<double>(),
               written.at("heading_error_deg").at("mean").get<double>(), 1e-9);
   EXPECT_TRUE(again.at("seconds").is_null());
+  std::ofstream(outputs_ / "other.pgm") << "P2 3 2 255\n0 255 0 255 255 255\n";
+  const CommandResult other = testing::run_command(
+      {SKETCHLOC_PROGRAM, "evaluate", "--run", out.string(), "--map",
+       (outputs_ / "other.pgm").string(), "--polarity", "dark-on-light", "--drawn",
+       "filled-free-space", "--reference", (*inputs_ / "reference.csv").string()});
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, HasSubstr("is 3 x 2 px, but the run was in a drawing of"));
+}
+
+TEST_F(LocalizeCommandEndToEnd, RefusesTheReferenceOfAnotherRunAndWarnsOfAShortOne) {
+  std::ifstream reference(*inputs_ / "reference.csv");
+  std::ofstream later(outputs_ / "later.csv");
+  std::ofstream two(outputs_ / "two.csv");
+  int lines = 0;
+  for (std::string line; std::getline(reference, line); ++lines) {
+    const std::size_t comma = line.find(',');
+    later << line.substr(0, comma + 1) << (lines > 0 ? "9" : "") << line.substr(comma + 1) << "\n";
+    two << (lines < 3 ? line + "\n" : "");
+  }
+  later.close();
+  two.close();
+  const CommandResult refused =
+      localize(outputs_ / "one", {"--reference", (outputs_ / "later.csv").string()});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("later.csv: its times are not those of"));
+  const CommandResult warned = localize(
+      outputs_ / "two", {"--reference", (outputs_ / "two.csv").string(), "--start-from-reference"});
+  EXPECT_EQ(warned.exit_code, 0) << warned.err;
+  EXPECT_THAT(warned.err, HasSubstr("two.csv: has poses for 2 of the"));
+}
+
+TEST_F(LocalizeCommandEndToEnd, NamesTheFlagWhereAValueMakesNoSense) {
+  const auto message = [&](const std::vector<std::string>& more) {
+    const CommandResult result = localize(outputs_ / "none", more);
+    EXPECT_EQ(result.exit_code, 2);
+    return result.err;
+  };
+  EXPECT_THAT(message({"--seed", "-1"}), HasSubstr("--seed: must be a whole number, 0 or more"));
+  EXPECT_THAT(message({"--method", "foo"}),
+              HasSubstr("--method: must be mcl or odometry, but it is 'foo'"));
+  EXPECT_THAT(message({"--max-range-m", "0"}),
+              HasSubstr("must be a number above 0, but it is '0'"));
+  EXPECT_THAT(message({"--start", ""}), HasSubstr("--start must be X,Y,HEADING_DEG"));
+  EXPECT_THAT(message({"--start", "20,20,400,1e9"}), HasSubstr("PX_PER_M the longer side"));
+  EXPECT_THAT(message({"--localizer.colour", "1"}), HasSubstr("unknown: --localizer.colour 1"));
+  EXPECT_THAT(message({"--localizer.particles.max_particles"}),
+              HasSubstr("--localizer.particles.max_particles: needs a value"));
 }
 
 }  // namespace

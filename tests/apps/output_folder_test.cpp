@@ -45,6 +45,10 @@ TEST_F(OutputFolderTest, AppearsWholeOnCommit) {
   EXPECT_EQ(entries(), 1u);
 }
 
+TEST_F(OutputFolderTest, NeedsAName) {
+  EXPECT_THROW(OutputFolder("", false), std::invalid_argument);
+}
+
 TEST_F(OutputFolderTest, LeavesNothingWithoutCommit) {
   {
     const OutputFolder output(target_, false);

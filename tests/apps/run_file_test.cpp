@@ -35,11 +35,13 @@ TEST(RunFile, SaysWhatMadeTheResult) {
 TEST(RunFile, IsReadBackWithOptionsGivenSeveralTimes) {
   const testing::TemporaryDirectory folder;
   RunDescription run = description();
+  run.drawing = {.width_px = 80, .height_px = 60};
   run.inputs = {{"map", "a: b.png"}, {"start", "1,2,3"},         {"alternative", "one.csv"},
                 {"global", "true"},  {"alternative", "two.csv"}, {"title", "12"}};
   std::ofstream(folder / "run.yaml") << run_file_text(run);
   const std::optional<RunDescription> read = read_run_description(folder / "run.yaml");
   ASSERT_TRUE(read);
+  EXPECT_EQ(read->drawing, run.drawing);
   EXPECT_EQ(read->command, "localize");
   EXPECT_THAT(read->inputs,
               ElementsAre(Pair("seed", "7"), Pair("map", "a: b.png"), Pair("start", "1,2,3"),

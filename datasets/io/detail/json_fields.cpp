@@ -25,6 +25,11 @@ Json parse_json(std::string_view text, const Place& place) {
   try {
     return Json::parse(text.begin(), text.end(), limit_depth);
   } catch (const Json::parse_error& error) {
+    for (const std::string_view word : {"NaN", "nan", "Infinity"}) {
+      if (text.find(word) != std::string_view::npos) {
+        fail(place, "JSON: " + std::string(word) + " is no JSON; use null for no return");
+      }
+    }
     fail(place, "JSON: it stops making sense at byte " + std::to_string(error.byte) + " of " +
                     std::to_string(text.size()) + "; write one whole object per line");
   } catch (const Json::exception& error) {

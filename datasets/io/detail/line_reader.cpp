@@ -111,14 +111,18 @@ bool LineReader::read_more() {
   return true;
 }
 
-void for_each_data_line(
-    const std::filesystem::path& file,
-    const std::function<void(std::string_view line, const Place& place)>& take) {
+void for_each_data_line(const std::filesystem::path& file, const TakeLine& take,
+                        const TakeLine& take_comment) {
   LineReader lines(file);
   while (const std::optional<std::string_view> line = lines.next()) {
     const std::size_t start = line->find_first_not_of(" \t");
-    if (start != std::string_view::npos && (*line)[start] != '#') {
+    if (start == std::string_view::npos) {
+      continue;
+    }
+    if ((*line)[start] != '#') {
       take(*line, lines.place());
+    } else if (take_comment) {
+      take_comment(*line, lines.place());
     }
   }
   lines.expect_whole();

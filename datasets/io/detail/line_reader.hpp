@@ -66,9 +66,11 @@ class LineReader {
   bool cut_off_ = false;
 };
 
-/// Gives the lines that are neither blank nor #-comments to `take`. A gzip stream that ends early
-/// is an error.
-void for_each_data_line(const std::filesystem::path& file,
-                        const std::function<void(std::string_view line, const Place& place)>& take);
+using TakeLine = std::function<void(std::string_view line, const Place& place)>;
+
+/// Gives the lines that are neither blank nor #-comments to `take`, comments to `take_comment`. A
+/// gzip stream that ends early is an error.
+void for_each_data_line(const std::filesystem::path& file, const TakeLine& take,
+                        const TakeLine& take_comment = {});
 
 }  // namespace sketchloc::detail

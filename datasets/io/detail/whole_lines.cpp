@@ -8,7 +8,7 @@ namespace {
 std::vector<std::string> torn_end(const Place& place, const RunReading& reading,
                                   const std::string& what) {
   if (!reading.allow_truncated) {
-    fail(place, what + "; copy the file again, or set allow_truncated to keep what is whole");
+    fail(place, what + "; copy the file again, or keep what is whole with --allow-truncated");
   }
   return {"dropped the torn end of the log at line " + std::to_string(place.line) + ": " + what};
 }

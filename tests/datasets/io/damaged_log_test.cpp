@@ -39,11 +39,17 @@ TEST_F(DamagedLog, SaysThatAFileIsMissingOrAFolder) {
   EXPECT_THAT([&] { read_run(folder()); }, FailsWith("Is a directory"));
 }
 
+TEST_F(DamagedLog, SaysThatItIsEmptyAndThatNanIsNoJson) {
+  EXPECT_THAT([&] { read_run(file("run.log", "")); }, FailsWith("run.log: is empty"));
+  EXPECT_THAT([&] { read_run(file("run.jsonl", "{\"time_s\": NaN}\n")); },
+              FailsWith("run.jsonl:1: JSON: NaN is no JSON; use null"));
+}
+
 TEST_F(DamagedLog, ThatEndsInALineSaysHowToKeepTheRest) {
   const std::filesystem::path log = file("run.log", scans(2) + "FLASER 1 1.5 0 0");
   EXPECT_THAT([&] { read_run(log); },
               FailsWith(AllOf(HasSubstr("run.log:3: the log ends in the middle of this line"),
-                              HasSubstr("set allow_truncated"))));
+                              HasSubstr("--allow-truncated"))));
   const RunFile rest = read_run_file(log, {.allow_truncated = true});
   EXPECT_EQ(rest.run.steps.size(), 2U);
   EXPECT_THAT(rest.notes, ElementsAre(HasSubstr("dropped the torn end of the log at line 3")));

@@ -89,7 +89,7 @@ TEST_F(JsonLines, NameTheFieldThatIsMissingWrongOrUnknown) {
 TEST_F(JsonLines, RefuseWhatIsNotJson) {
   EXPECT_THAT(reading("hello\n"), FailsWith("run.jsonl:1: JSON: it stops making sense at byte 1"));
   EXPECT_THAT(reading("[1, 2]\n"), FailsWith("line: expected an object, found an array"));
-  EXPECT_THAT(reading(line_with("-2", "NaN")), FailsWith("JSON: it stops making sense"));
+  EXPECT_THAT(reading(line_with("-2", "NaN")), FailsWith("NaN is no JSON; use null"));
   EXPECT_THAT(reading(line_with("-2", "1e999")), FailsWith("run.jsonl:1: JSON:"));
   EXPECT_THAT(reading(line_with("-2", std::string(100'000, '['))), FailsWith("levels of nesting"));
   EXPECT_THAT(reading("\n\n"), FailsWith("steps: expected one JSON object per line, found none"));

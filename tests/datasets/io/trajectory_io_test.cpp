@@ -42,6 +42,15 @@ TEST_F(Tum, GivesBackWhatWasWritten) {
   }
 }
 
+TEST_F(Tum, RefusesPosesInADrawingAndTablesWithCommas) {
+  SketchTrajectory trajectory;
+  trajectory.append(1.0, Sim2::from_xy_yaw_scale(30.0, 40.0, 0.5, 10.0));
+  write_tum(missing("sketch.tum"), trajectory);
+  EXPECT_THAT([&] { read_tum(missing("sketch.tum")); },
+              FailsWith("sketch.tum:1: frame: expected a trajectory in metres"));
+  EXPECT_THAT(reading("t_index,t\n0,1\n"), FailsWith("(a CSV file?)"));
+}
+
 TEST_F(Tum, WritesPosesInTheDrawingInPixels) {
   SketchTrajectory trajectory;
   trajectory.append(1.0, Sim2::from_xy_yaw_scale(10, 20, 0, 15));
