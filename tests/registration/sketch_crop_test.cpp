@@ -1,0 +1,178 @@
+#include "registration/sketch_crop.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "motion/angles.hpp"
+#include "registration/scan_raster.hpp"
+
+namespace sketchloc {
+namespace {
+
+constexpr double kPxPerM = 20.0;
+const LocalWindow kWindow{.side_m = 12.0, .cells = 48};  // cells of 0.25 m or 5 px
+
+/// A room of 9 m x 7 m with a block in it and walls one px wide, 20 px/m.
+Grid<std::uint8_t> room() {
+  Grid<std::uint8_t> occupied(200, 160);
+  for (int x = 10; x <= 190; ++x) {
+    occupied.at({x, 10}) = 1;
+    occupied.at({x, 150}) = 1;
+  }
+  for (int y = 10; y <= 150; ++y) {
+    occupied.at({10, y}) = 1;
+    occupied.at({190, y}) = 1;
+  }
+  for (int x = 120; x < 150; ++x) {
+    for (int y = 60; y < 80; ++y) {
+      occupied.at({x, y}) = 1;
+    }
+  }
+  return occupied;
+}
+
+Scan scan_in(const Grid<std::uint8_t>& occupied, const Sim2& sketch_from_robot) {
+  constexpr std::size_t kBeams = 360;
+  Scan scan{.first_angle_rad = -rad_from_deg(180.0),
+            .angle_step_rad = rad_from_deg(1.0),
+            .max_range_m = 30.0,
+            .robot_from_laser = {},
+            .ranges_m = std::vector<float>(kBeams)};
+  std::vector<float> headings_rad(kBeams);
+  for (std::size_t beam = 0; beam < kBeams; ++beam) {
+    headings_rad[beam] = static_cast<float>(sketch_from_robot.yaw_rad() + scan.angle_rad(beam));
+  }
+  RayCaster(occupied).cast(sketch_from_robot.translation(), headings_rad, 600.0F, scan.ranges_m);
+  for (float& range : scan.ranges_m) {
+    range = (range + 0.5F) / static_cast<float>(sketch_from_robot.scale());  // middle of the line
+  }
+  return scan;
+}
+
+double agreement(const Grid<float>& scan, const Grid<float>& crop, const Cell& shift) {
+  double sum = 0.0;
+  for (int row = 1; row + 1 < scan.height(); ++row) {
+    for (int column = 1; column + 1 < scan.width(); ++column) {
+      sum += static_cast<double>(scan.at({column, row})) *
+             static_cast<double>(crop.at({column + shift.column, row + shift.row}));
+    }
+  }
+  return sum;
+}
+
+/// Where the parabola through three values at -1, 0 and 1 is highest.
+double peak(double before, double here, double after) {
+  return 0.5 * (before - after) / (before - 2.0 * here + after);
+}
+
+class SketchCropOverlay : public ::testing::TestWithParam<Sim2> {};
+
+TEST_P(SketchCropOverlay, LaysAScanOverAnUndeformedDrawingToAFractionOfACell) {
+  const Grid<std::uint8_t> occupied = room();
+  const Scan scan = scan_in(occupied, GetParam());
+  const std::vector<PlacedScan> scans = {{.scan = &scan}};
+  const ScanRaster raster = raster_scans(scans, kWindow);
+  const SketchCrop crop = SketchCropper(occupied).crop(GetParam(), kWindow);
+  for (const Grid<float>& channel : {crop.strokes, crop.nearness}) {
+    const double here = agreement(raster.end_points, channel, {0, 0});
+    const double dx = peak(agreement(raster.end_points, channel, {-1, 0}), here,
+                           agreement(raster.end_points, channel, {1, 0}));
+    const double dy = peak(agreement(raster.end_points, channel, {0, -1}), here,
+                           agreement(raster.end_points, channel, {0, 1}));
+    EXPECT_LT(std::abs(dx), 0.15);
+    EXPECT_LT(std::abs(dy), 0.15);
+  }
+}
+
+TEST_P(SketchCropOverlay, ExpectsTheFreeSpaceThatTheScanSaw) {
+  const Grid<std::uint8_t> occupied = room();
+  const Scan scan = scan_in(occupied, GetParam());
+  const Grid<float> seen = raster_free_space(scan, kWindow);
+  const SketchCrop crop = SketchCropper(occupied).crop(GetParam(), kWindow);
+  double difference = 0.0;
+  double total = 0.0;
+  for (std::size_t i = 0; i < seen.cells().size(); ++i) {
+    difference += std::abs(seen.cells()[i] - crop.visible_free.cells()[i]);
+    total += seen.cells()[i];
+  }
+  EXPECT_LT(difference, 0.02 * total);
+}
+
+INSTANTIATE_TEST_SUITE_P(Poses, SketchCropOverlay,
+                         ::testing::Values(Sim2::from_xy_yaw_scale(80.0, 60.0, 0.0, kPxPerM),
+                                           Sim2::from_xy_yaw_scale(73.3, 91.7, 0.6, kPxPerM),
+                                           Sim2::from_xy_yaw_scale(101.1, 42.9, -2.3, kPxPerM)));
+
+TEST(SketchCrop, TurnsAndScalesTheDrawingByThePrior) {
+  Grid<std::uint8_t> occupied(200, 200);
+  occupied.at({100, 140}) = 1;  // 40 px in front of a robot that looks up
+  const Sim2 prior = Sim2::from_xy_yaw_scale(100.5, 100.5, rad_from_deg(90.0), 10.0);
+  const SketchCrop crop = SketchCropper(occupied).crop(prior, kWindow);
+  // 4 m ahead: cell units (40, 24); a px of 0.1 m is 0.4 cells
+  EXPECT_GT(crop.strokes.at({39, 23}), 0.05F);
+  EXPECT_NEAR(crop.nearness.at({39, 23}), 1.0 - 0.7071 / SketchCrop::kNearnessReach_cells, 5e-3);
+  EXPECT_NEAR(std::accumulate(crop.strokes.cells().begin(), crop.strokes.cells().end(), 0.0), 0.4,
+              1e-4);
+}
+
+TEST(SketchCrop, NeverLosesAThinLineHoweverMuchItShrinks) {
+  Grid<std::uint8_t> occupied(400, 400);
+  for (int y = 0; y < 400; ++y) {
+    occupied.at({200, y}) = 1;
+  }
+  const SketchCropper cropper(occupied);
+  for (const double px_per_m : {2.0, 10.0, 30.0}) {
+    const Sim2 prior = Sim2::from_xy_yaw_scale(200.0, 200.0, 0.3, px_per_m);
+    const SketchCrop crop = cropper.crop(prior, {.side_m = 6.0, .cells = 24});
+    for (int row = 4; row < 20; ++row) {
+      double ink = 0.0;
+      for (const float cell : crop.strokes.row(row)) {
+        ink += static_cast<double>(cell);
+      }
+      EXPECT_GT(ink, 0.6) << px_per_m << " px/m, row " << row;
+    }
+  }
+}
+
+TEST(SketchCrop, LeavesNoHolesWherePixelsAreLargerThanCells) {
+  const Grid<std::uint8_t> occupied(40, 40, 1);
+  const Sim2 prior = Sim2::from_xy_yaw_scale(20.0, 20.0, 0.7, 1.5);  // a px is 2.7 cells wide
+  const SketchCrop crop = SketchCropper(occupied).crop(prior, kWindow);
+  for (const float cell : crop.strokes.cells()) {
+    EXPECT_NEAR(cell, 1.0F, 0.35F);
+  }
+}
+
+TEST(SketchCrop, IsEmptyBesideTheDrawing) {
+  const Sim2 prior = Sim2::from_xy_yaw_scale(5000.0, -3000.0, 0.0, kPxPerM);
+  const SketchCrop crop = SketchCropper(room()).crop(prior, kWindow);
+  for (const float cell : crop.strokes.cells()) {
+    EXPECT_EQ(cell, 0.0F);
+  }
+  for (const float cell : crop.nearness.cells()) {
+    EXPECT_EQ(cell, 0.0F);
+  }
+}
+
+TEST(SketchCrop, KeepsThePublishedCropUprightAndBinary) {
+  Grid<std::uint8_t> occupied(200, 200);
+  occupied.at({120, 100}) = 1;
+  const Grid<float> crop = SketchCropper(occupied).upright_crop({100.0, 100.0}, 80.0, 40);
+  EXPECT_EQ(crop.at({30, 20}), 1.0F);
+  EXPECT_EQ(std::accumulate(crop.cells().begin(), crop.cells().end(), 0.0F), 1.0F);
+}
+
+TEST(SketchCrop, TakesABlankSheet) {
+  const Grid<std::uint8_t> occupied(30, 20);
+  const Sim2 prior = Sim2::from_xy_yaw_scale(15.0, 10.0, 0.0, 2.0);
+  const SketchCrop crop = SketchCropper(occupied).crop(prior, kWindow);
+  for (const float cell : crop.nearness.cells()) {
+    EXPECT_EQ(cell, 0.0F);
+  }
+}
+
+}  // namespace
+}  // namespace sketchloc
