@@ -39,7 +39,9 @@ const std::vector<Folder>& floor_plan() {
       {"datasets/io", {"motion", "datasets"}, {"opencv", "json", "yaml", "zlib"}},
       {"datasets/sim", {"motion", "datasets", "registration"}, {}},
       {"registration", {"motion", "datasets"}, {"highway"}},
-      {"registration/train", {"motion", "datasets", "registration", "datasets/sim"}, {"torch"}},
+      {"registration/train",
+       {"motion", "datasets", "registration", "datasets/sim"},
+       {"torch", "onnx"}},
       {"filter", {"motion", "datasets", "registration"}, {"highway"}},
       {"planning", {"motion", "datasets", "registration"}, {"ompl"}},
       {"topology", {"motion", "motion/graph", "datasets", "registration"}, {"opencv"}},
@@ -48,7 +50,7 @@ const std::vector<Folder>& floor_plan() {
       {"apps", all_but_apps_and({"eval"}), {"cli11", "spdlog", "yaml", "json"}},
       {"tests",
        all_but_apps_and({"eval", "apps"}),
-       {"googletest", "opencv", "json", "yaml", "zlib", "highway", "cli11"}},
+       {"googletest", "opencv", "torch", "json", "yaml", "zlib", "highway", "cli11"}},
   };
   return plan;
 }
@@ -58,7 +60,7 @@ struct Library {
   std::string_view name;
   std::string_view prefix;
 };
-constexpr std::array<Library, 17> kLibraries = {{{"opencv", "opencv2/"},
+constexpr std::array<Library, 19> kLibraries = {{{"opencv", "opencv2/"},
                                                  {"json", "nlohmann/"},
                                                  {"yaml", "yaml-cpp/"},
                                                  {"zlib", "zlib.h"},
@@ -71,6 +73,8 @@ constexpr std::array<Library, 17> kLibraries = {{{"opencv", "opencv2/"},
                                                  {"suitesparse", "cholmod.h"},
                                                  {"ompl", "ompl/"},
                                                  {"torch", "torch/"},
+                                                 {"torch", "ATen/"},
+                                                 {"onnx", "onnx/"},
                                                  {"open3d", "open3d/"},
                                                  {"benchmark", "benchmark/"},
                                                  {"googletest", "gtest/"},
@@ -190,6 +194,7 @@ std::string spelling(const std::string& library) {
                                                                 {"suitesparse", "SuiteSparse"},
                                                                 {"ompl", "OMPL"},
                                                                 {"torch", "libtorch"},
+                                                                {"onnx", "libonnx"},
                                                                 {"benchmark", "Google Benchmark"},
                                                                 {"googletest", "GoogleTest"}};
   return kSpellings.at(library);

@@ -1,0 +1,165 @@
+#include "registration/train/sample.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "motion/validate.hpp"
+
+namespace sketchloc {
+namespace {
+
+/// Scans with their true or measured places, the present one first.
+struct Submap {
+  Se2 world_from_robot;
+  std::vector<PlacedScan> scans;
+  std::vector<Scan> owned;  ///< at most one: a scan that is not of the drive
+};
+
+std::size_t draw_index(std::size_t count, Rng& rng) {
+  return std::min(static_cast<std::size_t>(uniform(rng) * static_cast<double>(count)), count - 1);
+}
+
+Submap draw_lone_scan(const Scene& scene, Rng& rng) {
+  const Se2& on_drive = scene.drive()[draw_index(scene.drive().size(), rng)].pose;
+  const double yaw_rad = uniform(-std::numbers::pi, std::numbers::pi, rng);
+  Submap submap{.world_from_robot = Se2::from_xy_yaw(on_drive.x_m(), on_drive.y_m(), yaw_rad),
+                .scans = {},
+                .owned = {}};
+  submap.owned.push_back(scene.scan(submap.world_from_robot, rng));
+  submap.scans.push_back({.scan = submap.owned.data()});
+  return submap;
+}
+
+/// Goes back along the drive from a random scan, with odometry as good as scan matching makes it.
+Submap draw_driven_submap(const Scene& scene, const SampleParams& params, Rng& rng) {
+  const std::size_t present = draw_index(scene.scans().size(), rng);
+  const std::size_t wanted = 1 + draw_index(static_cast<std::size_t>(params.max_scans), rng);
+  Submap submap{.world_from_robot = scene.drive()[present].pose, .scans = {}, .owned = {}};
+  submap.scans.push_back({.scan = &scene.scans()[present]});
+  Se2 robot_from_then;
+  std::size_t last = present;
+  for (std::size_t i = present; i-- > 0 && submap.scans.size() < wanted;) {
+    const Se2 last_from_here = scene.drive()[last].pose.inverse() * scene.drive()[i].pose;
+    if (last_from_here.translation().norm() < params.scan_spacing_m) {
+      continue;
+    }
+    robot_from_then = robot_from_then * sample_increment(last_from_here, params.submap_noise, rng);
+    submap.scans.push_back({.scan = &scene.scans()[i], .robot_from_then = robot_from_then});
+    last = i;
+  }
+  return submap;
+}
+
+template <std::size_t kSize>
+void set_point(std::array<float, kSize>& values, std::size_t index, const Eigen::Vector2d& point) {
+  values[2 * index] = static_cast<float>(point.x());
+  values[2 * index + 1] = static_cast<float>(point.y());
+}
+
+void label_warp(Sample& sample, const Scene& scene, const Se2& world_from_robot,
+                const LocalWindow& window) {
+  const Sim2 prior_from_sketch = sample.prior_sketch_from_robot.inverse();
+  const auto shift = [&](const Eigen::Vector2d& point_in_robot) -> Eigen::Vector2d {
+    const Eigen::Vector2d drawn = scene.sketch_from_world()(world_from_robot * point_in_robot);
+    return prior_from_sketch * drawn - point_in_robot;
+  };
+  const std::vector<Eigen::Vector2d> controls = control_points_in_robot(window);
+  for (std::size_t i = 0; i < controls.size(); ++i) {
+    set_point(sample.control_shift, i, shift(controls[i]));
+  }
+  const std::vector<Eigen::Vector2d> grid = grid_points_in_robot(window);
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    if (scene.indoors(world_from_robot * grid[i])) {
+      set_point(sample.grid_shift, i, shift(grid[i]));
+      sample.grid_weight[i] = 1.0F;
+    }
+  }
+}
+
+/// Backwards, as [Chen20] has it: the crop's points in the world, seen from the robot.
+void label_published_warp(Sample& sample, const Scene& scene, const Se2& world_from_robot,
+                          const LocalWindow& window) {
+  const Eigen::Vector2d centre_in_sketch = sample.prior_sketch_from_robot.translation();
+  const std::vector<Eigen::Vector2d> targets =
+      square_lattice(kControlsPerSide, published_crop_side_px(window), centre_in_sketch);
+  const Se2 robot_from_world = world_from_robot.inverse();
+  const Sim2 robot_from_sketch = sample.sketch_from_robot.inverse();
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const Eigen::Vector2d guess = world_from_robot * (robot_from_sketch * targets[i]);
+    const Eigen::Vector2d drawn_here = scene.sketch_from_world().inverse(targets[i], guess).point;
+    set_point(sample.published_source, i, 2.0 / window.side_m * (robot_from_world * drawn_here));
+  }
+}
+
+}  // namespace
+
+void validate(const PriorError& error) {
+  require_at_least("max_shift_m", error.max_shift_m, 0.0);
+  require_in_range("max_turn_rad", error.max_turn_rad, 0.0, std::numbers::pi);
+  require_at_least("log_scale_sigma", error.log_scale_sigma, 0.0);
+  require_in_range("full_share", error.full_share, 0.0, 1.0);
+  require_in_range("least_size", error.least_size, 1e-6, 1.0);
+}
+
+void validate(const SampleParams& params) {
+  require_at_least("cells", params.cells, 16.0);
+  validate(params.window());
+  require_in_range("alone_share", params.alone_share, 0.0, 1.0);
+  require_at_least("max_scans", params.max_scans, 1.0);
+  require_at_least("scan_spacing_m", params.scan_spacing_m, 0.0);
+  validate(params.submap_noise);
+  validate(params.prior);
+}
+
+std::vector<Eigen::Vector2d> control_points_in_robot(const LocalWindow& window) {
+  return square_lattice(kControlsPerSide, window.side_m, window.centre_in_robot());
+}
+
+std::vector<Eigen::Vector2d> grid_points_in_robot(const LocalWindow& window) {
+  const double side_m = window.side_m * (kGridPerSide - 1) / kGridPerSide;
+  return square_lattice(kGridPerSide, side_m, window.centre_in_robot());
+}
+
+Eigen::Vector4d pose_in_prior(const Sim2& sketch_from_robot, const Sim2& prior_sketch_from_robot) {
+  const Sim2 prior_from_robot = prior_sketch_from_robot.inverse() * sketch_from_robot;
+  return {prior_from_robot.x(), prior_from_robot.y(), prior_from_robot.yaw_rad(),
+          std::log(prior_from_robot.scale())};
+}
+
+Sim2 draw_prior(const Sim2& sketch_from_robot, const PriorError& error, Rng& rng) {
+  const bool full = uniform(rng) < error.full_share;
+  const double size = full ? 1.0 : std::pow(error.least_size, uniform(rng));
+  const double shift_m = size * error.max_shift_m * std::sqrt(uniform(rng));
+  const double direction_rad = uniform(-std::numbers::pi, std::numbers::pi, rng);
+  const double turn_rad = size * uniform(-error.max_turn_rad, error.max_turn_rad, rng);
+  const double log_scale = size * gaussian(error.log_scale_sigma, rng);
+  return sketch_from_robot * Sim2::from_xy_yaw_scale(shift_m * std::cos(direction_rad),
+                                                     shift_m * std::sin(direction_rad), turn_rad,
+                                                     std::exp(log_scale));
+}
+
+Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng) {
+  const Submap submap = uniform(rng) < params.alone_share ? draw_lone_scan(scene, rng)
+                                                          : draw_driven_submap(scene, params, rng);
+  Sample sample;
+  sample.sketch_from_robot =
+      scene.sketch_from_world().exact().sketch_from_robot(submap.world_from_robot);
+  sample.prior_sketch_from_robot = draw_prior(sample.sketch_from_robot, params.prior, rng);
+  const LocalWindow window = params.window();
+  sample.input =
+      network_input(kind, submap.scans, scene.sketch(), sample.prior_sketch_from_robot, window);
+  const Eigen::Vector4d pose =
+      pose_in_prior(sample.sketch_from_robot, sample.prior_sketch_from_robot);
+  for (std::size_t i = 0; i < sample.pose.size(); ++i) {
+    sample.pose[i] = static_cast<float>(pose(static_cast<Eigen::Index>(i)));
+  }
+  if (kind == InputKind::Published) {
+    label_published_warp(sample, scene, submap.world_from_robot, window);
+  } else {
+    label_warp(sample, scene, submap.world_from_robot, window);
+  }
+  return sample;
+}
+
+}  // namespace sketchloc
