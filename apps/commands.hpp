@@ -8,6 +8,7 @@
 #include "apps/generate_command.hpp"
 #include "apps/localize_command.hpp"
 #include "apps/program.hpp"
+#include "apps/train_command.hpp"
 
 namespace sketchloc {
 
@@ -15,6 +16,6 @@ namespace sketchloc {
 
 inline constexpr auto kCommands =
     std::to_array<AddCommand>({add_demo_command, add_localize_command, add_evaluate_command,
-                               add_generate_command, add_convert_command});
+                               add_generate_command, add_convert_command, add_train_command});
 
 }  // namespace sketchloc

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
 
 namespace sketchloc {
 
 /// Thrown at the next safe place after Ctrl-C, so that half-made outputs are removed.
 struct Interrupted : std::runtime_error {
-  Interrupted() : std::runtime_error("interrupted; nothing was written") {}
+  explicit Interrupted(const std::string& what = "interrupted; nothing was written")
+      : std::runtime_error(what) {}
 };
 
 /// From now on the first Ctrl-C or SIGTERM asks for a clean end, a second one ends at once.

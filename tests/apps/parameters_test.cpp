@@ -15,6 +15,7 @@
 #include "filter/localizer.hpp"
 #include "motion/odometry.hpp"
 #include "registration/matched_odometry.hpp"
+#include "registration/train/sample_source.hpp"
 #include "tests/support/field_count.hpp"
 
 namespace sketchloc {
@@ -28,7 +29,7 @@ using ParameterStructs =
                      MapReadingParams, PredictParams, BeamModelParams, EndPointModelParams,
                      KldParams, ModeParams, MotionGate, StartSpread, RecoveryParams,
                      RangeTableParams, MatchedOdometryParams, LocalizerParams, LocalizationParams,
-                     GenerateParams>;
+                     GenerateParams, SceneParams, PriorError, SampleParams, SampleSourceParams>;
 TYPED_TEST_SUITE(Parameters, ParameterStructs);
 
 template <ParameterStruct T>

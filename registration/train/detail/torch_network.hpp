@@ -1,0 +1,49 @@
+#pragma once
+
+#include <torch/torch.h>
+
+#include <vector>
+
+#include "registration/train/network_plan.hpp"
+
+namespace sketchloc::detail {
+
+/// Convolution or fully connected layer with its batch normalisation.
+struct NormalisedConvolution {
+  ConvolutionPlan plan;
+  torch::nn::Conv2d convolution;
+  torch::nn::BatchNorm2d norm;
+};
+struct NormalisedLinear {
+  LinearPlan plan;
+  torch::nn::Linear linear;
+  torch::nn::BatchNorm1d norm{nullptr};  ///< of hidden layers only
+};
+struct NormalisedResidual {
+  NormalisedConvolution first;
+  NormalisedConvolution second;
+};
+
+/// A planned network that can learn.
+class TorchNetwork : public torch::nn::Module {
+ public:
+  explicit TorchNetwork(const NetworkPlan& plan);
+
+  /// count x channels x cells x cells to count x outputs.
+  torch::Tensor forward(torch::Tensor values);
+
+  /// For use, not for learning: what export writes.
+  FoldedNetwork fold() const;
+
+  /// Moves all numbers, those of batch normalisation too, a share of the way to another's.
+  void follow(const TorchNetwork& other, double share);
+
+ private:
+  NormalisedConvolution make(const ConvolutionPlan& plan);
+
+  NetworkPlan plan_;
+  std::vector<std::variant<NormalisedConvolution, NormalisedResidual, NormalisedLinear>> layers_;
+  int registered_ = 0;
+};
+
+}  // namespace sketchloc::detail

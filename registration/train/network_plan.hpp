@@ -1,0 +1,80 @@
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "registration/network_input.hpp"
+
+namespace sketchloc {
+
+/// 3x3, padded by 1, batch normalisation, ReLU.
+struct ConvolutionPlan {
+  int inputs = 1;
+  int outputs = 1;
+  int stride = 1;
+};
+
+/// x + two convolutions of x, then ReLU.
+struct ResidualPlan {
+  int channels = 1;
+};
+
+/// Fully connected; the first one takes all cells of all channels. Hidden ones have batch
+/// normalisation and ReLU.
+struct LinearPlan {
+  int inputs = 1;
+  int outputs = 1;
+  bool hidden = false;
+};
+
+using LayerPlan = std::variant<ConvolutionPlan, ResidualPlan, LinearPlan>;
+
+/// A network as data: training builds it, export writes it.
+struct NetworkPlan {
+  int channels = 1;
+  int cells = 64;  ///< per side of the input
+  int outputs = 1;
+  std::vector<LayerPlan> layers{};
+};
+
+/// `Chen20`: 5 convolutions of stride 2, 2 of stride 1, 2 fully connected layers. `Affine`: the
+/// same with 6 outputs. `Ours`: residual blocks and a head that keeps places apart.
+enum class NetworkKind { Chen20, Affine, Ours };
+
+constexpr InputKind input_of(NetworkKind kind) {
+  return kind == NetworkKind::Ours ? InputKind::Residual : InputKind::Published;
+}
+
+/// `cells`: a multiple of 32.
+NetworkPlan plan_network(NetworkKind kind, int cells);
+
+// The same with its numbers, batch normalisation folded in.
+
+struct Convolution {
+  ConvolutionPlan plan;
+  bool relu = true;
+  std::vector<float> weights{};  ///< outputs x inputs x 3 x 3
+  std::vector<float> bias{};
+};
+
+struct Residual {
+  Convolution first;
+  Convolution second;  ///< its ReLU comes after the sum
+};
+
+struct Linear {
+  LinearPlan plan;
+  std::vector<float> weights{};  ///< outputs x inputs
+  std::vector<float> bias{};
+};
+
+struct FoldedNetwork {
+  NetworkPlan plan;
+  std::vector<std::variant<Convolution, Residual, Linear>> layers{};
+};
+
+/// The bytes of an ONNX file: input "input" (1 x channels x cells x cells), output "output".
+std::string onnx_bytes(const FoldedNetwork& network);
+
+}  // namespace sketchloc
