@@ -19,7 +19,7 @@ std::string map_server_text(double px_per_m) {
   ConfigNode header;
   header.child("image").text = "drawing.png";
   header.child("resolution") = to_config(1.0 / px_per_m);
-  header.child("negate").text = "0";
+  header.child("negate") = to_config(0);  // not = "0": g++ 12 warns of that under -O3
   header.child("occupied_thresh").text = "0.65";
   header.child("free_thresh").text = "0.196";
   return to_yaml(header) + "origin: [0, 0, 0]\n";  // a list, which parameters never are
