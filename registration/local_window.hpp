@@ -23,6 +23,13 @@ struct LocalWindow {
   Eigen::Vector2d centre_in_robot() const { return {ahead_m, 0.0}; }
 };
 
+template <typename Visitor>
+void visit_fields(LocalWindow& window, Visitor&& visit) {
+  visit("side_m", window.side_m);
+  visit("cells", window.cells);
+  visit("ahead_m", window.ahead_m);
+}
+
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const LocalWindow& window);
 

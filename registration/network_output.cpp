@@ -7,7 +7,6 @@
 
 #include "motion/check.hpp"
 #include "registration/network_input.hpp"
-#include "registration/tps.hpp"
 
 namespace sketchloc {
 namespace {
@@ -16,11 +15,6 @@ const std::vector<Eigen::Vector2d>& unit_controls() {
   static const std::vector<Eigen::Vector2d> controls =
       square_lattice(kControlsPerSide, 2.0, Eigen::Vector2d::Zero());
   return controls;
-}
-
-const TpsSolver& unit_solver() {
-  static const std::optional<TpsSolver> solver = TpsSolver::factor(unit_controls());
-  return *solver;
 }
 
 }  // namespace
@@ -60,28 +54,63 @@ std::array<float, PublishedOutput::kSplineSize> sources_of_affine(std::span<cons
   return sources;
 }
 
+Warp warp_of_residual(std::span<const float> output, const Sim2& prior_sketch_from_robot,
+                      const LocalWindow& window) {
+  check(output.size() == ResidualOutput::kSize, "output of a residual network");
+  const std::vector<Eigen::Vector2d> controls =
+      square_lattice(kControlsPerSide, window.side_m, window.centre_in_robot());
+  std::vector<Eigen::Vector2d> places;
+  for (std::size_t i = 0; i < controls.size(); ++i) {
+    const std::size_t at = ResidualOutput::kControlShift + 2 * i;
+    places.push_back(prior_sketch_from_robot *
+                     (controls[i] + Eigen::Vector2d(output[at], output[at + 1])));
+  }
+  return *Warp::from_robot_points(controls, places);  // a lattice defines a spline
+}
+
+Eigen::Matrix4d covariance_of_residual(std::span<const float> output) {
+  const Eigen::Matrix4d whitening = whitening_of_residual(output);
+  const Eigen::Matrix4d root =
+      whitening.triangularView<Eigen::Lower>().solve(Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
+  // From the frame of the prior, in its metres, to the robot's own.
+  const double yaw_rad = output[ResidualOutput::kPose + 2];
+  const double scale = std::exp(static_cast<double>(output[ResidualOutput::kPose + 3]));
+  Eigen::Matrix4d robot_from_prior = Eigen::Matrix4d::Identity();
+  robot_from_prior.topLeftCorner<2, 2>() =
+      Sim2::from_xy_yaw_scale(0.0, 0.0, -yaw_rad, 1.0 / scale).scaled_rotation_matrix();
+  const Eigen::Matrix4d mapped = robot_from_prior * root;
+  return mapped * mapped.transpose();
+}
+
+double inlier_probability_of_residual(std::span<const float> output) {
+  return 1.0 / (1.0 + std::exp(-static_cast<double>(output[ResidualOutput::kInlierLogit])));
+}
+
+Warp warp_of_published(std::span<const float> sources, const Eigen::Vector2d& crop_centre_in_sketch,
+                       const LocalWindow& window) {
+  check(sources.size() == PublishedOutput::kSplineSize, "output of the published network");
+  const std::vector<Eigen::Vector2d> places =
+      square_lattice(kControlsPerSide, published_crop_side_px(window), crop_centre_in_sketch);
+  std::vector<Eigen::Vector2d> points;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    points.emplace_back(window.centre_in_robot() +
+                        0.5 * window.side_m * Eigen::Vector2d(sources[2 * i], sources[2 * i + 1]));
+  }
+  return *Warp::from_sketch_places(places, points);  // a lattice defines a spline
+}
+
 std::optional<Sim2> pose_of_published(std::span<const float> sources,
                                       const Eigen::Vector2d& crop_centre_in_sketch,
                                       const LocalWindow& window) {
-  check(sources.size() == PublishedOutput::kSplineSize, "output of the published network");
-  std::vector<Eigen::Vector2d> values;
-  for (std::size_t i = 0; i < unit_controls().size(); ++i) {
-    values.emplace_back(sources[2 * i], sources[2 * i + 1]);
-  }
-  const ThinPlateSpline scan_from_crop = unit_solver().solve(values);
-  const Eigen::Vector2d robot_in_scan = -2.0 / window.side_m * window.centre_in_robot();
-  const Inversion robot = invert(scan_from_crop, robot_in_scan, Eigen::Vector2d::Zero());
-  const Eigen::Matrix2d jacobian = scan_from_crop.jacobian(robot.point);
-  if (robot.status != Inversion::Status::Converged || !(jacobian.determinant() > 1e-9)) {
+  const std::optional<PlaneMapPoint> robot =
+      warp_of_published(sources, crop_centre_in_sketch, window)
+          .sketch_from_robot(Eigen::Vector2d::Zero());
+  if (!robot || !(robot->jacobian.determinant() > 0.0)) {
     return std::nullopt;
   }
-  const Eigen::Matrix2d crop_from_scan = jacobian.inverse();
-  const double half_side_px = 0.5 * published_crop_side_px(window);
-  const Eigen::Vector2d position = crop_centre_in_sketch + half_side_px * robot.point;
-  const double px_per_m =
-      half_side_px / (0.5 * window.side_m) * std::sqrt(crop_from_scan.determinant());
-  const double heading_rad = std::atan2(crop_from_scan(1, 0), crop_from_scan(0, 0));
-  return Sim2::from_xy_yaw_scale(position.x(), position.y(), heading_rad, px_per_m);
+  return Sim2::from_xy_yaw_scale(robot->value.x(), robot->value.y(),
+                                 std::atan2(robot->jacobian(1, 0), robot->jacobian(0, 0)),
+                                 std::sqrt(robot->jacobian.determinant()));
 }
 
 }  // namespace sketchloc

@@ -8,6 +8,7 @@
 #include "motion/sim2.hpp"
 #include "registration/control_grid.hpp"
 #include "registration/local_window.hpp"
+#include "registration/warp.hpp"
 
 namespace sketchloc {
 
@@ -42,6 +43,21 @@ Eigen::Matrix4d whitening_of_residual(std::span<const float> output);
 
 /// The 32 sources that the affine numbers mean.
 std::array<float, PublishedOutput::kSplineSize> sources_of_affine(std::span<const float> output);
+
+/// The warp that a residual network means: its control points as it says, a spline between them.
+Warp warp_of_residual(std::span<const float> output, const Sim2& prior_sketch_from_robot,
+                      const LocalWindow& window);
+
+/// Covariance of the error e in truth = pose * e, as of Registration, that a residual network
+/// means.
+Eigen::Matrix4d covariance_of_residual(std::span<const float> output);
+
+/// That the pose is within 0.5 m and 15 deg, in (0, 1).
+double inlier_probability_of_residual(std::span<const float> output);
+
+/// The warp that published sources mean.
+Warp warp_of_published(std::span<const float> sources, const Eigen::Vector2d& crop_centre_in_sketch,
+                       const LocalWindow& window);
 
 /// The pose that published sources mean: position, where the scan's centre lands in the drawing;
 /// heading, where the line along the robot's heading points there; scale, sqrt(det) of the warp.

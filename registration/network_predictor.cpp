@@ -1,0 +1,163 @@
+#include "registration/network_predictor.hpp"
+
+#include <array>
+#include <opencv2/dnn.hpp>
+#include <stdexcept>
+#include <string>
+
+#include "motion/check.hpp"
+#include "motion/validate.hpp"
+#include "registration/network_input.hpp"
+#include "registration/network_output.hpp"
+
+namespace sketchloc {
+namespace {
+
+std::size_t outputs_of(PredictorKind kind) {
+  switch (kind) {
+    case PredictorKind::Chen20:
+      return PublishedOutput::kSplineSize;
+    case PredictorKind::Affine:
+      return PublishedOutput::kAffineSize;
+    case PredictorKind::Ours:
+      return ResidualOutput::kSize;
+  }
+  check(false, "a kind of predictor");
+  return 0;
+}
+
+class NetworkPredictor final : public WarpPredictor {
+ public:
+  NetworkPredictor(const std::filesystem::path& onnx, PredictorKind kind,
+                   const NetworkPredictorParams& params)
+      : params_((validate(params), params)), kind_(kind) {
+    try {
+      network_ = cv::dnn::readNetFromONNX(onnx.string());
+      network_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
+      const std::vector<float> nothing(input_size(), 0.0F);
+      const cv::Mat output = forward(nothing, 1);
+      if (output.total() != outputs_of(kind)) {
+        throw std::runtime_error("expected " + std::to_string(outputs_of(kind)) +
+                                 " outputs, found " + std::to_string(output.total()));
+      }
+    } catch (const std::exception& error) {  // cv::Exception is one
+      throw std::runtime_error(onnx.string() + ": is no network for this: " + error.what());
+    }
+  }
+
+  std::vector<std::optional<Registration>> predict(std::span<const PlacedScan> submap,
+                                                   const SketchCropper& drawing,
+                                                   std::span<const Sim2> priors) override {
+    return kind_ == PredictorKind::Ours ? predict_residual(submap, drawing, priors)
+                                        : predict_published(submap, drawing, priors);
+  }
+
+ private:
+  InputKind input_kind() const {
+    return kind_ == PredictorKind::Ours ? InputKind::Residual : InputKind::Published;
+  }
+  std::size_t input_size() const {
+    return static_cast<std::size_t>(channels_of(input_kind()) * params_.window.cells *
+                                    params_.window.cells);
+  }
+
+  cv::Mat forward(const std::vector<float>& input, std::size_t count) {
+    const std::array<int, 4> shape = {static_cast<int>(count), channels_of(input_kind()),
+                                      params_.window.cells, params_.window.cells};
+    // setInput copies; cv::Mat has no view of constant numbers.
+    network_.setInput(cv::Mat(4, shape.data(), CV_32F, const_cast<float*>(input.data())));
+    return network_.forward();
+  }
+
+  /// One row of outputs for each prior.
+  std::vector<std::vector<float>> look(std::span<const PlacedScan> submap,
+                                       const SketchCropper& drawing, std::span<const Sim2> priors) {
+    std::vector<float> input;
+    for (const Sim2& prior : priors) {
+      const std::vector<float> planes =
+          network_input(input_kind(), submap, drawing, prior, params_.window);
+      input.insert(input.end(), planes.begin(), planes.end());
+    }
+    const cv::Mat output = forward(input, priors.size());
+    const std::size_t width = outputs_of(kind_);
+    std::vector<std::vector<float>> rows;
+    for (std::size_t i = 0; i < priors.size(); ++i) {
+      const float* row = output.ptr<float>() + i * width;
+      rows.emplace_back(row, row + width);
+    }
+    return rows;
+  }
+
+  std::vector<std::optional<Registration>> predict_residual(std::span<const PlacedScan> submap,
+                                                            const SketchCropper& drawing,
+                                                            std::span<const Sim2> priors) {
+    std::vector<std::optional<Registration>> results(priors.size());
+    if (priors.empty()) {
+      return results;
+    }
+    std::vector<Sim2> from(priors.begin(), priors.end());
+    for (int iteration = 0; iteration < params_.iterations; ++iteration) {
+      const std::vector<std::vector<float>> outputs = look(submap, drawing, from);
+      for (std::size_t i = 0; i < from.size(); ++i) {
+        const Sim2 pose = pose_of_residual(outputs[i], from[i]);
+        results[i] = Registration{.warp = warp_of_residual(outputs[i], from[i], params_.window),
+                                  .sketch_from_robot = pose,
+                                  .covariance = covariance_of_residual(outputs[i]),
+                                  .inlier_probability = inlier_probability_of_residual(outputs[i])};
+        from[i] = pose;
+      }
+    }
+    return results;
+  }
+
+  std::vector<std::optional<Registration>> predict_published(std::span<const PlacedScan> submap,
+                                                             const SketchCropper& drawing,
+                                                             std::span<const Sim2> priors) {
+    std::vector<std::optional<Registration>> results(priors.size());
+    if (priors.empty()) {
+      return results;
+    }
+    const std::vector<std::vector<float>> outputs = look(submap, drawing, priors);
+    for (std::size_t i = 0; i < priors.size(); ++i) {
+      std::vector<float> sources = outputs[i];
+      if (kind_ == PredictorKind::Affine) {
+        const auto spread = sources_of_affine(outputs[i]);
+        sources.assign(spread.begin(), spread.end());
+      }
+      const Eigen::Vector2d& centre = priors[i].translation();
+      if (const auto pose = pose_of_published(sources, centre, params_.window)) {
+        results[i] = Registration{.warp = warp_of_published(sources, centre, params_.window),
+                                  .sketch_from_robot = *pose,
+                                  .covariance = std::nullopt};
+      }
+    }
+    return results;
+  }
+
+  NetworkPredictorParams params_;
+  PredictorKind kind_;
+  cv::dnn::Net network_;
+};
+
+}  // namespace
+
+std::span<const std::pair<std::string_view, PredictorKind>> names_of(PredictorKind) {
+  static constexpr std::pair<std::string_view, PredictorKind> kNames[] = {
+      {"chen20", PredictorKind::Chen20},
+      {"affine", PredictorKind::Affine},
+      {"ours", PredictorKind::Ours}};
+  return kNames;
+}
+
+void validate(const NetworkPredictorParams& params) {
+  validate_part("window", params.window);
+  require_in_range("iterations", params.iterations, 1, 10);
+}
+
+std::unique_ptr<WarpPredictor> make_network_predictor(const std::filesystem::path& onnx,
+                                                      PredictorKind kind,
+                                                      const NetworkPredictorParams& params) {
+  return std::make_unique<NetworkPredictor>(onnx, kind, params);
+}
+
+}  // namespace sketchloc

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "registration/local_window.hpp"
+#include "registration/warp_predictor.hpp"
+
+namespace sketchloc {
+
+/// The networks that `sketchloc train` makes: `Chen20` as published, `Affine` its sister without
+/// bending, `Ours`.
+enum class PredictorKind { Chen20, Affine, Ours };
+std::span<const std::pair<std::string_view, PredictorKind>> names_of(PredictorKind);
+
+struct NetworkPredictorParams {
+  LocalWindow window;  ///< the one that the network was trained with
+  int iterations = 3;  ///< ours: how often it looks again from its own result, >= 1
+};
+
+template <typename Visitor>
+void visit_fields(NetworkPredictorParams& params, Visitor&& visit) {
+  visit("window", params.window);
+  visit("iterations", params.iterations);
+}
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const NetworkPredictorParams& params);
+
+/// A network in an ONNX file as a predictor; all priors go through it in one batch. Not safe to
+/// share between threads. Throws std::runtime_error where the file is no network of that kind.
+std::unique_ptr<WarpPredictor> make_network_predictor(const std::filesystem::path& onnx,
+                                                      PredictorKind kind,
+                                                      const NetworkPredictorParams& params = {});
+
+}  // namespace sketchloc
