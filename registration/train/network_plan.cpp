@@ -19,14 +19,14 @@ NetworkPlan published_plan(int cells, int outputs) {
                      LinearPlan{128 * left * left, 256, true}, LinearPlan{256, outputs, false}}};
 }
 
-NetworkPlan residual_plan(int cells) {
+NetworkPlan matching_plan(int cells) {
   const int left = cells / 16;
+  const MatchPlan match{.scan_channels = 2, .drawing_channels = 3};
   return {.channels = channels_of(InputKind::Residual),
           .cells = cells,
           .outputs = ResidualOutput::kSize,
-          .layers = {ConvolutionPlan{channels_of(InputKind::Residual), 16, 2},
-                     ConvolutionPlan{16, 32, 2}, ResidualPlan{32}, ConvolutionPlan{32, 64, 2},
-                     ResidualPlan{64}, ConvolutionPlan{64, 128, 2}, ResidualPlan{128},
+          .layers = {match, ConvolutionPlan{match.outputs(), 64, 2}, ResidualPlan{64},
+                     ConvolutionPlan{64, 128, 2}, ResidualPlan{128},
                      LinearPlan{128 * left * left, 256, true},
                      LinearPlan{256, ResidualOutput::kSize, false}}};
 }
@@ -41,7 +41,7 @@ NetworkPlan plan_network(NetworkKind kind, int cells) {
     case NetworkKind::Affine:
       return published_plan(cells, PublishedOutput::kAffineSize);
     case NetworkKind::Ours:
-      return residual_plan(cells);
+      return matching_plan(cells);
   }
   check(false, "a kind of network");
   return {};

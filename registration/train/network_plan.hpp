@@ -4,6 +4,7 @@
 #include <variant>
 #include <vector>
 
+#include "registration/correlation.hpp"
 #include "registration/network_input.hpp"
 
 namespace sketchloc {
@@ -28,7 +29,19 @@ struct LinearPlan {
   bool hidden = false;
 };
 
-using LayerPlan = std::variant<ConvolutionPlan, ResidualPlan, LinearPlan>;
+/// The first channels of the input are the scan's, the others the drawing's. Each passes through
+/// two convolutions of stride 2 and a residual block of its own; then come both results and their
+/// correlation (see correlate).
+struct MatchPlan {
+  int scan_channels = 1;
+  int drawing_channels = 1;
+  int first_width = 16;
+  int width = 32;
+
+  int outputs() const { return 2 * width + kCorrelationShifts; }
+};
+
+using LayerPlan = std::variant<ConvolutionPlan, ResidualPlan, MatchPlan, LinearPlan>;
 
 /// A network as data: training builds it, export writes it.
 struct NetworkPlan {
@@ -39,7 +52,7 @@ struct NetworkPlan {
 };
 
 /// `Chen20`: 5 convolutions of stride 2, 2 of stride 1, 2 fully connected layers. `Affine`: the
-/// same with 6 outputs. `Ours`: residual blocks and a head that keeps places apart.
+/// same with 6 outputs. `Ours`: features of scan and drawing are matched, then residual blocks.
 enum class NetworkKind { Chen20, Affine, Ours };
 
 constexpr InputKind input_of(NetworkKind kind) {
@@ -63,6 +76,18 @@ struct Residual {
   Convolution second;  ///< its ReLU comes after the sum
 };
 
+struct Encoder {
+  Convolution first;
+  Convolution second;
+  Residual third;
+};
+
+struct Match {
+  MatchPlan plan;
+  Encoder scan;
+  Encoder drawing;
+};
+
 struct Linear {
   LinearPlan plan;
   std::vector<float> weights{};  ///< outputs x inputs
@@ -71,7 +96,7 @@ struct Linear {
 
 struct FoldedNetwork {
   NetworkPlan plan;
-  std::vector<std::variant<Convolution, Residual, Linear>> layers{};
+  std::vector<std::variant<Convolution, Residual, Match, Linear>> layers{};
 };
 
 /// The bytes of an ONNX file: input "input" (1 x channels x cells x cells), output "output".

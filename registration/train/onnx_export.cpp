@@ -3,6 +3,7 @@
 #include <initializer_list>
 #include <string>
 
+#include "registration/detail/correlation_layer.hpp"
 #include "registration/train/network_plan.hpp"
 
 namespace sketchloc {
@@ -37,6 +38,29 @@ class GraphWriter {
 
   void add(const Convolution& layer) { convolve(layer, layer.relu); }
 
+  void add(const Encoder& layer) {
+    add(layer.first);
+    add(layer.second);
+    add(layer.third);
+  }
+
+  void add(const Match& layer) {
+    onnx::NodeProto& split = append("Split", {last_});
+    const std::string scan_input = split.output(0);
+    const std::string drawing_input = split.name() + "_drawing";
+    split.add_output(drawing_input);
+    add_integer(split, "axis", 1);
+    add_integers(split, "split", {layer.plan.scan_channels, layer.plan.drawing_channels});
+    last_ = scan_input;
+    add(layer.scan);
+    const std::string scan = last_;
+    last_ = drawing_input;
+    add(layer.drawing);
+    const std::string drawing = last_;
+    append(detail::kCorrelationOperation, {scan, drawing}).set_domain(detail::kOperationDomain);
+    add_integer(append("Concat", {scan, drawing, last_}), "axis", 1);
+  }
+
   void add(const Linear& layer) {
     if (!flat_) {
       append("Flatten", {last_});
@@ -44,10 +68,7 @@ class GraphWriter {
     }
     onnx::NodeProto& node = append("Gemm", {last_});
     add_weights(node, layer.weights, {layer.plan.outputs, layer.plan.inputs}, layer.bias);
-    onnx::AttributeProto& attribute = *node.add_attribute();
-    attribute.set_name("transB");
-    attribute.set_type(onnx::AttributeProto::INT);
-    attribute.set_i(1);
+    add_integer(node, "transB", 1);
     if (layer.plan.hidden) {
       append("Relu", {last_});
     }
@@ -92,6 +113,13 @@ class GraphWriter {
     return tensor.name();
   }
 
+  static void add_integer(onnx::NodeProto& node, const std::string& name, int value) {
+    onnx::AttributeProto& attribute = *node.add_attribute();
+    attribute.set_name(name);
+    attribute.set_type(onnx::AttributeProto::INT);
+    attribute.set_i(value);
+  }
+
   static void add_integers(onnx::NodeProto& node, const std::string& name,
                            std::initializer_list<int> values) {
     onnx::AttributeProto& attribute = *node.add_attribute();
@@ -124,6 +152,9 @@ std::string onnx_bytes(const FoldedNetwork& network) {
   model.set_ir_version(7);
   model.set_producer_name("sketchloc");
   model.add_opset_import()->set_version(11);
+  onnx::OperatorSetIdProto& own_operations = *model.add_opset_import();
+  own_operations.set_domain(detail::kOperationDomain);
+  own_operations.set_version(1);
   onnx::GraphProto& graph = *model.mutable_graph();
   graph.set_name("registration");
   const NetworkPlan& plan = network.plan;

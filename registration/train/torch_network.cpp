@@ -1,6 +1,11 @@
 #include "registration/train/detail/torch_network.hpp"
 
+#include <ATen/Parallel.h>
+
 #include <cmath>
+#include <span>
+
+#include "registration/correlation.hpp"
 
 namespace sketchloc::detail {
 namespace {
@@ -47,6 +52,13 @@ Linear folded(const NormalisedLinear& layer) {
   return {.plan = layer.plan, .weights = std::move(result.weights), .bias = std::move(result.bias)};
 }
 
+Match folded(const NormalisedMatch& layer) {
+  const auto encoder = [](const NormalisedEncoder& one) {
+    return Encoder{folded(one.first), folded(one.second), folded(one.third)};
+  };
+  return {.plan = layer.plan, .scan = encoder(layer.scan), .drawing = encoder(layer.drawing)};
+}
+
 torch::Tensor normalised(NormalisedConvolution& layer, const torch::Tensor& values) {
   return layer.norm->forward(layer.convolution->forward(values));
 }
@@ -57,6 +69,72 @@ torch::Tensor pass(NormalisedConvolution& layer, const torch::Tensor& values) {
 
 torch::Tensor pass(NormalisedResidual& layer, const torch::Tensor& values) {
   return torch::relu(values + normalised(layer.second, pass(layer.first, values)));
+}
+
+torch::Tensor pass(NormalisedEncoder& layer, const torch::Tensor& values) {
+  return pass(layer.third, pass(layer.second, pass(layer.first, values)));
+}
+
+FeatureShape shape_of(const torch::Tensor& features) {
+  return {.channels = static_cast<int>(features.size(1)),
+          .side = static_cast<int>(features.size(2))};
+}
+
+/// One sample's numbers of a contiguous tensor.
+std::span<float> row(const torch::Tensor& tensor, std::int64_t index) {
+  const auto size = static_cast<std::size_t>(tensor.numel() / tensor.size(0));
+  return {tensor.data_ptr<float>() + static_cast<std::size_t>(index) * size, size};
+}
+
+template <typename Visit>
+void for_each_sample(const torch::Tensor& tensor, Visit&& visit) {
+  at::parallel_for(0, tensor.size(0), 1, [&](std::int64_t first, std::int64_t last) {
+    for (std::int64_t sample = first; sample < last; ++sample) {
+      visit(sample);
+    }
+  });
+}
+
+/// `correlate` with gradients.
+class Correlation : public torch::autograd::Function<Correlation> {
+ public:
+  static torch::Tensor forward(torch::autograd::AutogradContext* context,
+                               const torch::Tensor& scan_features,
+                               const torch::Tensor& drawing_features) {
+    const torch::Tensor scan = scan_features.contiguous();
+    const torch::Tensor drawing = drawing_features.contiguous();
+    context->save_for_backward({scan, drawing});
+    const torch::Tensor result =
+        torch::empty({scan.size(0), kCorrelationShifts, scan.size(2), scan.size(3)});
+    for_each_sample(scan, [&](std::int64_t i) {
+      correlate(shape_of(scan), row(scan, i), row(drawing, i), row(result, i));
+    });
+    return result;
+  }
+
+  static torch::autograd::tensor_list backward(torch::autograd::AutogradContext* context,
+                                               const torch::autograd::tensor_list& gradients) {
+    const torch::autograd::variable_list saved = context->get_saved_variables();
+    const torch::Tensor gradient = gradients[0].contiguous();
+    torch::Tensor to_scan = torch::empty_like(saved[0]);
+    torch::Tensor to_drawing = torch::empty_like(saved[1]);
+    for_each_sample(gradient, [&](std::int64_t i) {
+      correlate_backwards(shape_of(saved[0]), row(saved[0], i), row(saved[1], i), row(gradient, i),
+                          row(to_scan, i), row(to_drawing, i));
+    });
+    return {to_scan, to_drawing};
+  }
+};
+
+torch::Tensor pass(NormalisedMatch& layer, const torch::Tensor& values) {
+  const auto parts =
+      values.split_with_sizes({layer.plan.scan_channels, layer.plan.drawing_channels}, 1);
+  const torch::Tensor scan =
+      pass(layer.scan, parts[0].contiguous(torch::MemoryFormat::ChannelsLast));
+  const torch::Tensor drawing =
+      pass(layer.drawing, parts[1].contiguous(torch::MemoryFormat::ChannelsLast));
+  const torch::Tensor both = Correlation::apply(scan, drawing);
+  return torch::cat({scan, drawing, both}, 1).contiguous(torch::MemoryFormat::ChannelsLast);
 }
 
 /// As a convolution over all cells at once: that runs in oneDNN on all threads, where a matrix
@@ -76,9 +154,11 @@ TorchNetwork::TorchNetwork(const NetworkPlan& plan) : plan_(plan) {
     if (const auto* convolution = std::get_if<ConvolutionPlan>(&layer)) {
       layers_.emplace_back(make(*convolution));
     } else if (const auto* residual = std::get_if<ResidualPlan>(&layer)) {
-      const ConvolutionPlan each{residual->channels, residual->channels, 1};
-      NormalisedConvolution first = make(each);
-      layers_.emplace_back(NormalisedResidual{std::move(first), make(each)});
+      layers_.emplace_back(make(*residual));
+    } else if (const auto* match = std::get_if<MatchPlan>(&layer)) {
+      NormalisedEncoder scan = make_encoder(match->scan_channels, *match);
+      layers_.emplace_back(
+          NormalisedMatch{*match, std::move(scan), make_encoder(match->drawing_channels, *match)});
     } else {
       const LinearPlan& linear = std::get<LinearPlan>(layer);
       const std::string name = std::to_string(registered_++);
@@ -105,6 +185,18 @@ NormalisedConvolution TorchNetwork::make(const ConvolutionPlan& plan) {
       .convolution = register_module(
           "convolution" + name, torch::nn::Conv2d(torch::nn::Conv2dOptions(options).bias(false))),
       .norm = register_module("norm" + name, torch::nn::BatchNorm2d(plan.outputs))};
+}
+
+NormalisedResidual TorchNetwork::make(const ResidualPlan& plan) {
+  const ConvolutionPlan each{plan.channels, plan.channels, 1};
+  NormalisedConvolution first = make(each);
+  return {std::move(first), make(each)};
+}
+
+NormalisedEncoder TorchNetwork::make_encoder(int inputs, const MatchPlan& plan) {
+  NormalisedConvolution first = make(ConvolutionPlan{inputs, plan.first_width, 2});
+  NormalisedConvolution second = make(ConvolutionPlan{plan.first_width, plan.width, 2});
+  return {std::move(first), std::move(second), make(ResidualPlan{plan.width})};
 }
 
 torch::Tensor TorchNetwork::forward(torch::Tensor values) {

@@ -24,6 +24,17 @@ struct NormalisedResidual {
   NormalisedConvolution second;
 };
 
+struct NormalisedEncoder {
+  NormalisedConvolution first;
+  NormalisedConvolution second;
+  NormalisedResidual third;
+};
+struct NormalisedMatch {
+  MatchPlan plan;
+  NormalisedEncoder scan;
+  NormalisedEncoder drawing;
+};
+
 /// A planned network that can learn.
 class TorchNetwork : public torch::nn::Module {
  public:
@@ -40,9 +51,13 @@ class TorchNetwork : public torch::nn::Module {
 
  private:
   NormalisedConvolution make(const ConvolutionPlan& plan);
+  NormalisedResidual make(const ResidualPlan& plan);
+  NormalisedEncoder make_encoder(int inputs, const MatchPlan& plan);
 
   NetworkPlan plan_;
-  std::vector<std::variant<NormalisedConvolution, NormalisedResidual, NormalisedLinear>> layers_;
+  std::vector<
+      std::variant<NormalisedConvolution, NormalisedResidual, NormalisedMatch, NormalisedLinear>>
+      layers_;
   int registered_ = 0;
 };
 

@@ -8,6 +8,8 @@
 #include <opencv2/dnn.hpp>
 #include <stdexcept>
 
+#include "registration/detail/correlation_layer.hpp"
+
 namespace sketchloc {
 namespace {
 
@@ -85,6 +87,7 @@ TEST_P(TrainerOf, ExportsWhatOpenCvComputesTheSame) {
   Trainer trainer(plan(), trainer_params(GetParam()));
   learn(trainer, 0, 4);
   const std::string onnx = onnx_bytes(trainer.folded());
+  detail::register_correlation_layer();
   cv::dnn::Net network = cv::dnn::readNetFromONNX(onnx.data(), onnx.size());
   const SampleBatch& batch = data()[0];
   const std::vector<float> expected = trainer.predict(batch);
