@@ -1,12 +1,14 @@
 #include "registration/network_predictor.hpp"
 
 #include <array>
-#include <opencv2/dnn.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/dnn/dnn.hpp>
 #include <stdexcept>
 #include <string>
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
+#include "registration/detail/correlation_layer.hpp"
 #include "registration/network_input.hpp"
 #include "registration/network_output.hpp"
 
@@ -26,14 +28,34 @@ std::size_t outputs_of(PredictorKind kind) {
   return 0;
 }
 
+/// OpenCV warns of every operation that is not its own.
+class SilentOpenCv {
+ public:
+  SilentOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR)) {}
+  ~SilentOpenCv() { cv::utils::logging::setLogLevel(before_); }
+  SilentOpenCv(const SilentOpenCv&) = delete;
+  SilentOpenCv& operator=(const SilentOpenCv&) = delete;
+
+ private:
+  cv::utils::logging::LogLevel before_;
+};
+
+cv::dnn::Net read_network(std::span<const std::uint8_t> onnx) {
+  detail::register_correlation_layer();
+  const SilentOpenCv silent;
+  cv::dnn::Net network =
+      cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(onnx.data()), onnx.size());
+  network.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
+  return network;
+}
+
 class NetworkPredictor final : public WarpPredictor {
  public:
-  NetworkPredictor(const std::filesystem::path& onnx, PredictorKind kind,
+  NetworkPredictor(std::span<const std::uint8_t> onnx, PredictorKind kind,
                    const NetworkPredictorParams& params)
       : params_((validate(params), params)), kind_(kind) {
     try {
-      network_ = cv::dnn::readNetFromONNX(onnx.string());
-      network_.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
+      network_ = read_network(onnx);
       const std::vector<float> nothing(input_size(), 0.0F);
       const cv::Mat output = forward(nothing, 1);
       if (output.total() != outputs_of(kind)) {
@@ -41,7 +63,7 @@ class NetworkPredictor final : public WarpPredictor {
                                  " outputs, found " + std::to_string(output.total()));
       }
     } catch (const std::exception& error) {  // cv::Exception is one
-      throw std::runtime_error(onnx.string() + ": is no network for this: " + error.what());
+      throw std::runtime_error(std::string("no network of this kind: ") + error.what());
     }
   }
 
@@ -154,7 +176,7 @@ void validate(const NetworkPredictorParams& params) {
   require_in_range("iterations", params.iterations, 1, 10);
 }
 
-std::unique_ptr<WarpPredictor> make_network_predictor(const std::filesystem::path& onnx,
+std::unique_ptr<WarpPredictor> make_network_predictor(std::span<const std::uint8_t> onnx,
                                                       PredictorKind kind,
                                                       const NetworkPredictorParams& params) {
   return std::make_unique<NetworkPredictor>(onnx, kind, params);

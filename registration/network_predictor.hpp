@@ -1,7 +1,10 @@
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
 
 #include "registration/local_window.hpp"
 #include "registration/warp_predictor.hpp"
@@ -27,9 +30,10 @@ void visit_fields(NetworkPredictorParams& params, Visitor&& visit) {
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const NetworkPredictorParams& params);
 
-/// A network in an ONNX file as a predictor; all priors go through it in one batch. Not safe to
-/// share between threads. Throws std::runtime_error where the file is no network of that kind.
-std::unique_ptr<WarpPredictor> make_network_predictor(const std::filesystem::path& onnx,
+/// A network, given as the bytes of an ONNX file, as a predictor; all priors go through it in one
+/// batch. Not safe to share between threads. Throws std::runtime_error where the bytes are no
+/// network of that kind.
+std::unique_ptr<WarpPredictor> make_network_predictor(std::span<const std::uint8_t> onnx,
                                                       PredictorKind kind,
                                                       const NetworkPredictorParams& params = {});
 

@@ -38,7 +38,7 @@ const std::vector<Folder>& floor_plan() {
       {"datasets", {"motion"}, {}},
       {"datasets/io", {"motion", "datasets"}, {"opencv", "json", "yaml", "zlib"}},
       {"datasets/sim", {"motion", "datasets", "registration"}, {}},
-      {"registration", {"motion", "datasets"}, {"highway"}},
+      {"registration", {"motion", "datasets"}, {"highway", "opencv"}},
       {"registration/train",
        {"motion", "datasets", "registration", "datasets/sim"},
        {"torch", "onnx"}},
