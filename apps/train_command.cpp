@@ -23,6 +23,7 @@
 #include "apps/training_curve.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "motion/angles.hpp"
+#include "registration/network_predictor.hpp"
 #include "registration/train/sample_source.hpp"
 #include "registration/train/trainer.hpp"
 
@@ -38,12 +39,14 @@ const std::map<std::string, NetworkKind> kNetworkKinds = {
 struct TrainParams {
   SampleSourceParams source;
   TrainerParams trainer;
+  std::uint64_t improve_after = 300'000;  ///< samples; then ours improves its own priors
 };
 
 template <typename Visitor>
 void visit_fields(TrainParams& params, Visitor&& visit) {
   visit("source", params.source);
   visit("trainer", params.trainer);
+  visit("improve_after", params.improve_after);
 }
 
 struct TrainOptions {
@@ -148,6 +151,20 @@ class Training {
             .first_batch = first_batch};
   }
 
+  /// Priors are improved by the network of the curve's last point, so that going on from a
+  /// checkpoint gives the same samples as never having stopped.
+  std::unique_ptr<SampleSource> training_samples() const {
+    const std::uint64_t learned = trainer_.batches_learned();
+    const std::uint64_t every = batches_of(options_.validate_every);
+    const std::uint64_t last_point =
+        learned / every * every * static_cast<std::uint64_t>(params_.source.batch);
+    SampleSource::Stream from = stream(SampleSplit::Training, learned);
+    if (kind_ == NetworkKind::Ours && last_point > 0 && last_point >= params_.improve_after) {
+      from.improving_network = read_bytes(options_.out / "network.onnx");
+    }
+    return std::make_unique<SampleSource>(params_.source, from, options_.workers);
+  }
+
   /// The same for all networks and seeds, in buildings of its own.
   std::vector<SampleBatch> make_validation() const {
     SampleSourceParams params = params_.source;
@@ -191,18 +208,18 @@ class Training {
   }
 
   void learn() {
-    SampleSource source(params_.source, stream(SampleSplit::Training, trainer_.batches_learned()),
-                        options_.workers);
+    std::unique_ptr<SampleSource> source = training_samples();
     const std::uint64_t last = options_.stop_after == 0
                                    ? total_batches_
                                    : std::min(total_batches_, batches_of(options_.stop_after));
     const std::uint64_t every = batches_of(options_.validate_every);
     Progress progress("train", last);
     while (trainer_.batches_learned() < last) {
-      loss_.add(trainer_.learn(source.next()));
+      loss_.add(trainer_.learn(source->next()));
       const std::uint64_t done = trainer_.batches_learned();
       if (done % every == 0 || done == last) {
         record();
+        source = training_samples();
       }
       progress.update(done);
     }
@@ -291,6 +308,7 @@ void add_train_command(CLI::App& program) {
   add_output_options(*command, *options);
   command->callback([options] {
     set_learning_threads(options->threads);
+    run_networks_on_one_thread();
     Training(*options).run();
     std::cout << "trained network in " << options->out.string() << "\n";
   });

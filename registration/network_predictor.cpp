@@ -176,6 +176,8 @@ void validate(const NetworkPredictorParams& params) {
   require_in_range("iterations", params.iterations, 1, 10);
 }
 
+void run_networks_on_one_thread() { cv::setNumThreads(1); }
+
 std::unique_ptr<WarpPredictor> make_network_predictor(std::span<const std::uint8_t> onnx,
                                                       PredictorKind kind,
                                                       const NetworkPredictorParams& params) {

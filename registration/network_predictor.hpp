@@ -30,6 +30,9 @@ void visit_fields(NetworkPredictorParams& params, Visitor&& visit) {
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const NetworkPredictorParams& params);
 
+/// Networks as small as these run faster on one thread than on several; of the whole process.
+void run_networks_on_one_thread();
+
 /// A network, given as the bytes of an ONNX file, as a predictor; all priors go through it in one
 /// batch. Not safe to share between threads. Throws std::runtime_error where the bytes are no
 /// network of that kind.

@@ -51,6 +51,18 @@ Submap draw_driven_submap(const Scene& scene, const SampleParams& params, Rng& r
   return submap;
 }
 
+/// A prior from which a network has looked once or twice.
+Sim2 improved(Sim2 prior, const std::vector<PlacedScan>& scans, const SketchCropper& sketch,
+              WarpPredictor& network, Rng& rng) {
+  const std::size_t times = 1 + draw_index(2, rng);
+  for (std::size_t i = 0; i < times; ++i) {
+    if (const auto found = network.predict(scans, sketch, {&prior, 1}).front()) {
+      prior = found->sketch_from_robot;
+    }
+  }
+  return prior;
+}
+
 template <std::size_t kSize>
 void set_point(std::array<float, kSize>& values, std::size_t index, const Eigen::Vector2d& point) {
   values[2 * index] = static_cast<float>(point.x());
@@ -100,6 +112,7 @@ void validate(const PriorError& error) {
   require_at_least("log_scale_sigma", error.log_scale_sigma, 0.0);
   require_in_range("full_share", error.full_share, 0.0, 1.0);
   require_in_range("least_size", error.least_size, 1e-6, 1.0);
+  require_in_range("improved_share", error.improved_share, 0.0, 1.0);
 }
 
 void validate(const SampleParams& params) {
@@ -139,13 +152,18 @@ Sim2 draw_prior(const Sim2& sketch_from_robot, const PriorError& error, Rng& rng
                                                      std::exp(log_scale));
 }
 
-Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng) {
+Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng,
+                   WarpPredictor* network) {
   const Submap submap = uniform(rng) < params.alone_share ? draw_lone_scan(scene, rng)
                                                           : draw_driven_submap(scene, params, rng);
   Sample sample;
   sample.sketch_from_robot =
       scene.sketch_from_world().exact().sketch_from_robot(submap.world_from_robot);
   sample.prior_sketch_from_robot = draw_prior(sample.sketch_from_robot, params.prior, rng);
+  if (network != nullptr && uniform(rng) < params.prior.improved_share) {
+    sample.prior_sketch_from_robot =
+        improved(sample.prior_sketch_from_robot, submap.scans, scene.sketch(), *network, rng);
+  }
   const LocalWindow window = params.window();
   sample.input =
       network_input(kind, submap.scans, scene.sketch(), sample.prior_sketch_from_robot, window);

@@ -9,6 +9,7 @@
 #include "registration/control_grid.hpp"
 #include "registration/network_input.hpp"
 #include "registration/train/scene.hpp"
+#include "registration/warp_predictor.hpp"
 
 namespace sketchloc {
 
@@ -20,6 +21,9 @@ struct PriorError {
   double log_scale_sigma = 0.25;  ///< >= 0
   double full_share = 0.5;        ///< of the priors whose error has full size, in [0, 1]
   double least_size = 0.05;       ///< the others' size, log-uniform from this to 1, in (0, 1]
+  /// Of the priors that a network which learns already has improved, once or twice: the errors
+  /// that it starts from when it looks again. In [0, 1].
+  double improved_share = 0.35;
 };
 
 template <typename Visitor>
@@ -29,6 +33,7 @@ void visit_fields(PriorError& error, Visitor&& visit) {
   visit("log_scale_sigma", error.log_scale_sigma);
   visit("full_share", error.full_share);
   visit("least_size", error.least_size);
+  visit("improved_share", error.improved_share);
 }
 
 /// What a sample shows.
@@ -96,6 +101,8 @@ Eigen::Vector4d pose_in_prior(const Sim2& sketch_from_robot, const Sim2& prior_s
 /// The pose disturbed as priors are.
 Sim2 draw_prior(const Sim2& sketch_from_robot, const PriorError& error, Rng& rng);
 
-Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng);
+/// `network`: what improves priors; none: nothing does.
+Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng,
+                   WarpPredictor* network = nullptr);
 
 }  // namespace sketchloc

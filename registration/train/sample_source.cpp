@@ -11,6 +11,7 @@
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
+#include "registration/network_predictor.hpp"
 
 namespace sketchloc {
 namespace {
@@ -114,12 +115,13 @@ class SampleSource::Work {
 
   void run(int thread, const std::stop_token& stop) {
     try {
+      const std::unique_ptr<WarpPredictor> network = improving_network();
       for (std::uint64_t batch = stream_.first_batch; !stop.stop_requested(); ++batch) {
         {
           std::unique_lock lock(mutex_);
           changed_.wait(lock, stop, [&] { return batch < consumed_ + kBatchesAhead; });
         }
-        fill(thread, batch, stop);
+        fill(thread, batch, network.get(), stop);
         const std::lock_guard lock(mutex_);
         --places_[batch % kBatchesAhead].threads_left;
         changed_.notify_all();
@@ -131,8 +133,17 @@ class SampleSource::Work {
     }
   }
 
+  std::unique_ptr<WarpPredictor> improving_network() const {
+    if (stream_.improving_network.empty()) {
+      return nullptr;
+    }
+    const auto* bytes = reinterpret_cast<const std::uint8_t*>(stream_.improving_network.data());
+    return make_network_predictor({bytes, stream_.improving_network.size()}, PredictorKind::Ours,
+                                  {.window = params_.sample.window(), .iterations = 1});
+  }
+
   /// This thread's scenes' part of a batch.
-  void fill(int thread, std::uint64_t batch, const std::stop_token& stop) {
+  void fill(int thread, std::uint64_t batch, WarpPredictor* network, const std::stop_token& stop) {
     SampleBatch& target = places_[batch % kBatchesAhead].batch;
     for (int slot = thread; slot < params_.scenes; slot += thread_count_) {
       for (int index = slot; index < params_.batch && !stop.stop_requested();
@@ -141,7 +152,7 @@ class SampleSource::Work {
             batch * static_cast<std::uint64_t>(params_.batch) + static_cast<std::uint64_t>(index);
         Rng rng = make_rng(sample_seed_, sample);
         put(target, static_cast<std::size_t>(index),
-            draw_sample(scene_for(slot, sample), params_.sample, stream_.kind, rng));
+            draw_sample(scene_for(slot, sample), params_.sample, stream_.kind, rng, network));
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "registration/train/sample.hpp"
@@ -54,6 +55,9 @@ class SampleSource {
     SampleSplit split = SampleSplit::Training;
     std::uint64_t seed = 1;
     std::uint64_t first_batch = 0;
+    /// A network of ours, as the bytes of an ONNX file, that improves priors (PriorError); empty:
+    /// nothing does.
+    std::string improving_network = {};
   };
 
   SampleSource(const SampleSourceParams& params, const Stream& stream, int threads);
