@@ -128,7 +128,7 @@ std::string legend_html(const Chart& chart) {
 std::string shapes_svg(const Chart& chart, std::span<const double> y_ticks) {
   std::string svg =
       "<svg viewBox=\"0 0 1000 1000\" preserveAspectRatio=\"none\" role=\"img\" aria-label=\"" +
-      escaped(chart.title + " over time. " + chart.caption) + "\">";
+      escaped(chart.title + " over " + chart.x_name + ". " + chart.caption) + "\">";
   for (const double y : y_ticks) {
     svg += line_svg(0.0, y_in_box(chart, y), kBox, y_in_box(chart, y), "grid");
   }
@@ -160,7 +160,7 @@ std::string labels_html(const Chart& chart, std::span<const double> y_ticks) {
   for (const ChartMark& mark : chart.marks) {
     html += label_html("badge top", "left", 100.0 * mark.x / chart.x_high, mark.letter);
   }
-  return html + "<span class=\"xunit\">" + escaped(chart.x_unit) + "</span>";
+  return html + "<span class=\"xunit\">" + escaped(chart.x_name + ", " + chart.x_unit) + "</span>";
 }
 
 }  // namespace

@@ -28,12 +28,13 @@ struct ChartMark {
   std::string letter;
 };
 
-/// Curves over time. Everything beyond y_high is cut off, so the caption should say so.
+/// Curves over time or over another number. Everything beyond y_high is cut off, so the caption should say so.
 struct Chart {
   std::string title;
   std::string unit;
   std::string caption = {};
   double x_high = 1.0;
+  std::string x_name = "time";
   std::string x_unit;
   double y_low = 0.0;
   double y_high = 1.0;

@@ -83,7 +83,7 @@ border-left:1px solid var(--soft);border-bottom:1px solid var(--soft)}
 .plot span{position:absolute;font-size:.78rem;line-height:1;color:var(--soft);white-space:nowrap}
 .plot .ytick{right:100%;transform:translateY(50%);padding-right:.4rem}
 .plot .xtick{top:100%;transform:translateX(-50%);padding-top:.4rem}
-.plot .xunit{right:0;top:100%;padding-top:1.4rem}.plot .xunit::before{content:"time, "}
+.plot .xunit{right:0;top:100%;padding-top:1.4rem}
 .plot .guide{right:2px;transform:translateY(-2px)}
 .plot .badge{color:#fff;top:-20px;transform:translateX(-50%);line-height:16px;font-size:11px}
 line{vector-effect:non-scaling-stroke}line.grid{stroke:var(--line)}
