@@ -236,6 +236,9 @@ class Training {
                            .validation = trainer_.validate(validation_)};
     curve_ += curve_row(point);
     write_atomically(options_.out / "curve.csv", curve_);
+    if (const std::string picture = curve_svg(curve_); !picture.empty()) {
+      write_atomically(options_.out / "curve.svg", picture);
+    }
     write_atomically(options_.out / "network.onnx", onnx_bytes(trainer_.folded()));
     save();
     spdlog::info("{} samples: loss {:.4f}, median {:.1f} cm {:.2f} deg, mean {:.1f} cm {:.2f} deg",

@@ -25,6 +25,10 @@ std::string curve_row(const CurvePoint& point);
 /// the header; throws std::runtime_error where a row has no number.
 std::string curve_until(std::string_view csv, std::uint64_t samples);
 
+/// The curve as a picture: the bytes of an SVG file that shows median position and heading errors,
+/// relative to those of the priors, over the samples. Empty for fewer than two points.
+std::string curve_svg(std::string_view csv);
+
 /// The seconds in a curve's last row; 0 without one.
 double seconds_of_curve(std::string_view csv);
 

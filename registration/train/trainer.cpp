@@ -91,7 +91,7 @@ class Trainer::Implementation {
   }
 
   ValidationReport validate(std::span<const SampleBatch> batches) {
-    PoseErrors errors;
+    ValidationErrors errors;
     for (const SampleBatch& batch : batches) {
       const std::vector<float> outputs = predict(batch);
       const std::size_t size = outputs.size() / static_cast<std::size_t>(batch.count);

@@ -12,7 +12,7 @@
 namespace sketchloc {
 namespace {
 
-ErrorSummary summarise(std::vector<double> errors) {
+ValidationSummary summarise(std::vector<double> errors) {
   if (errors.empty()) {
     return {};
   }
@@ -48,7 +48,8 @@ std::optional<Sim2> pose_of(NetworkKind kind, std::span<const float> output,
   return std::nullopt;
 }
 
-void PoseErrors::add(const Sim2& truth, const Sim2& prior, const std::optional<Sim2>& estimate) {
+void ValidationErrors::add(const Sim2& truth, const Sim2& prior,
+                           const std::optional<Sim2>& estimate) {
   const Sim2& reached = estimate.value_or(prior);
   failures_ += estimate ? 0 : 1;
   prior_position_m_.push_back(position_error_m(truth, prior));
@@ -57,7 +58,7 @@ void PoseErrors::add(const Sim2& truth, const Sim2& prior, const std::optional<S
   heading_rad_.push_back(heading_error_rad(truth, reached));
 }
 
-ValidationReport PoseErrors::report() const {
+ValidationReport ValidationErrors::report() const {
   return {.samples = static_cast<int>(position_m_.size()),
           .failures = failures_,
           .prior_position_m = summarise(prior_position_m_),

@@ -9,7 +9,7 @@
 
 namespace sketchloc {
 
-struct ErrorSummary {
+struct ValidationSummary {
   double mean = 0.0;
   double median = 0.0;
   double p90 = 0.0;
@@ -19,10 +19,10 @@ struct ErrorSummary {
 struct ValidationReport {
   int samples = 0;
   int failures = 0;  ///< samples without a pose; they count with the error of the prior
-  ErrorSummary prior_position_m;
-  ErrorSummary position_m;
-  ErrorSummary prior_heading_rad;
-  ErrorSummary heading_rad;
+  ValidationSummary prior_position_m;
+  ValidationSummary position_m;
+  ValidationSummary prior_heading_rad;
+  ValidationSummary heading_rad;
 };
 
 /// The pose that a network's output means; none where it means none.
@@ -30,7 +30,7 @@ std::optional<Sim2> pose_of(NetworkKind kind, std::span<const float> output,
                             const Sim2& prior_sketch_from_robot, const LocalWindow& window);
 
 /// Collects errors of estimated poses.
-class PoseErrors {
+class ValidationErrors {
  public:
   void add(const Sim2& truth, const Sim2& prior, const std::optional<Sim2>& estimate);
   ValidationReport report() const;

@@ -9,6 +9,7 @@
 namespace sketchloc {
 namespace {
 
+using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 std::string three_rows() {
@@ -40,6 +41,21 @@ TEST(TrainingCurve, ForgetsWhatCameAfterACheckpoint) {
 TEST(TrainingCurve, BeginsWithItsHeaderAlone) {
   EXPECT_EQ(curve_until("", 2000), curve_header());
   EXPECT_EQ(seconds_of_curve(curve_header()), 0.0);
+}
+
+TEST(TrainingCurve, IsAPictureFromTwoPointsOn) {
+  EXPECT_EQ(curve_svg(curve_header()), "");
+  const auto point = [](std::uint64_t samples, double error_m) {
+    ValidationReport report;
+    report.position_m.median = error_m;
+    report.prior_position_m.median = 1.0;
+    report.prior_heading_rad.median = 0.1;
+    return curve_row({.samples = samples, .seconds = 1.0, .loss = {}, .validation = report});
+  };
+  const std::string svg =
+      curve_svg(curve_header() + point(1'000'000, 0.5) + point(2'000'000, 0.25));
+  EXPECT_THAT(svg, HasSubstr("last 25.0"));
+  EXPECT_THAT(svg, HasSubstr("2.0M"));
 }
 
 TEST(TrainingCurve, RefusesARowThatIsNone) {

@@ -5,8 +5,8 @@
 namespace sketchloc {
 namespace {
 
-TEST(PoseErrors, MeasuresInTrueLocalMetres) {
-  PoseErrors errors;
+TEST(ValidationErrors, MeasuresInTrueLocalMetres) {
+  ValidationErrors errors;
   const Sim2 truth = Sim2::from_xy_yaw_scale(100.0, 100.0, 0.0, 20.0);
   const Sim2 prior = Sim2::from_xy_yaw_scale(140.0, 100.0, 0.5, 10.0);
   errors.add(truth, prior, Sim2::from_xy_yaw_scale(100.0, 110.0, -0.1, 30.0));
@@ -18,15 +18,15 @@ TEST(PoseErrors, MeasuresInTrueLocalMetres) {
   EXPECT_EQ(report.failures, 0);
 }
 
-TEST(PoseErrors, CountsAFailureAsThePrior) {
-  PoseErrors errors;
+TEST(ValidationErrors, CountsAFailureAsThePrior) {
+  ValidationErrors errors;
   const Sim2 truth = Sim2::from_xy_yaw_scale(100.0, 100.0, 0.0, 20.0);
   errors.add(truth, Sim2::from_xy_yaw_scale(140.0, 100.0, 0.5, 10.0), std::nullopt);
   EXPECT_EQ(errors.report().failures, 1);
   EXPECT_NEAR(errors.report().position_m.mean, 2.0, 1e-12);
 }
 
-TEST(PoseErrors, IsEmptyWithoutPoses) { EXPECT_EQ(PoseErrors{}.report().samples, 0); }
+TEST(ValidationErrors, IsEmptyWithoutPoses) { EXPECT_EQ(ValidationErrors{}.report().samples, 0); }
 
 }  // namespace
 }  // namespace sketchloc
