@@ -6,7 +6,9 @@
 
 namespace sketchloc {
 
-/// FPFH features, Fast Global Registration and point-to-plane ICP, the baseline of [Chen20].
+/// FPFH features, Fast Global Registration and point-to-plane ICP, the baseline of [Chen20]. Tuned
+/// on simulated plans without deformation; Open3D's own tuple_scale of 0.95 finds nothing in 19 of
+/// 20 deformed drawings.
 struct IcpParams {
   double side_m = 16.0;           ///< of the square around the prior that is registered, > 0
   int max_scans = 1;              ///< of the submap, the present one first, >= 1
