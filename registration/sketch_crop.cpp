@@ -200,4 +200,25 @@ Grid<float> SketchCropper::upright_crop(const Eigen::Vector2d& centre_in_sketch,
   return crop;
 }
 
+std::vector<Eigen::Vector2d> SketchCropper::ink_near(const Eigen::Vector2d& point_in_sketch,
+                                                     double radius_px) const {
+  check(radius_px >= 0.0, "a radius is a length");
+  std::vector<Eigen::Vector2d> ink;
+  const int rows = distance_px_.height();
+  const auto row_at = [rows](double y) {
+    return static_cast<int>(std::clamp(std::floor(y), 0.0, static_cast<double>(rows)));
+  };
+  const int end_row = row_at(point_in_sketch.y() + radius_px + 1.0);
+  for (int row = row_at(point_in_sketch.y() - radius_px); row < end_row; ++row) {
+    const auto here = static_cast<std::size_t>(row);
+    for (std::size_t i = row_starts_[here]; i < row_starts_[here + 1]; ++i) {
+      const Eigen::Vector2d centre = centre_of({ink_columns_[i], row});
+      if ((centre - point_in_sketch).squaredNorm() <= radius_px * radius_px) {
+        ink.push_back(centre);
+      }
+    }
+  }
+  return ink;
+}
+
 }  // namespace sketchloc

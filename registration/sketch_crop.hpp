@@ -38,6 +38,10 @@ class SketchCropper {
   Grid<float> upright_crop(const Eigen::Vector2d& centre_in_sketch, double side_px,
                            int cells) const;
 
+  /// The centres of the pixels with ink that are no farther than this from a point, row by row.
+  std::vector<Eigen::Vector2d> ink_near(const Eigen::Vector2d& point_in_sketch,
+                                        double radius_px) const;
+
  private:
   template <typename Visit>
   void for_each_ink(const Sim2& cells_from_sketch, int cells, Visit&& visit) const;

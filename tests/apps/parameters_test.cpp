@@ -14,6 +14,7 @@
 #include "eval/localization.hpp"
 #include "filter/localizer.hpp"
 #include "motion/odometry.hpp"
+#include "registration/icp_predictor.hpp"
 #include "registration/matched_odometry.hpp"
 #include "registration/train/sample_source.hpp"
 #include "tests/support/field_count.hpp"
@@ -29,7 +30,8 @@ using ParameterStructs =
                      MapReadingParams, PredictParams, BeamModelParams, EndPointModelParams,
                      KldParams, ModeParams, MotionGate, StartSpread, RecoveryParams,
                      RangeTableParams, MatchedOdometryParams, LocalizerParams, LocalizationParams,
-                     GenerateParams, SceneParams, PriorError, SampleParams, SampleSourceParams>;
+                     GenerateParams, SceneParams, PriorError, SampleParams, SampleSourceParams,
+                     IcpParams>;
 TYPED_TEST_SUITE(Parameters, ParameterStructs);
 
 template <ParameterStruct T>

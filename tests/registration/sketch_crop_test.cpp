@@ -157,6 +157,27 @@ TEST(SketchCrop, IsEmptyBesideTheDrawing) {
   }
 }
 
+TEST(SketchCrop, FindsTheInkAroundAPoint) {
+  const Grid<std::uint8_t> occupied = room();
+  const SketchCropper cropper(occupied);
+  for (const Eigen::Vector2d& point :
+       {Eigen::Vector2d(80.0, 60.0), Eigen::Vector2d(10.5, 150.5), Eigen::Vector2d(-30.0, 170.0),
+        Eigen::Vector2d(205.3, 3.7), Eigen::Vector2d(9000.0, -9000.0)}) {
+    for (const double radius_px : {0.0, 50.0, 71.3, 1e9}) {
+      std::vector<Eigen::Vector2d> expected;
+      for (int row = 0; row < occupied.height(); ++row) {
+        for (int column = 0; column < occupied.width(); ++column) {
+          const Eigen::Vector2d centre(column + 0.5, row + 0.5);
+          if (occupied.at({column, row}) != 0 && (centre - point).norm() <= radius_px) {
+            expected.push_back(centre);
+          }
+        }
+      }
+      EXPECT_EQ(cropper.ink_near(point, radius_px), expected) << point.transpose();
+    }
+  }
+}
+
 TEST(SketchCrop, KeepsThePublishedCropUprightAndBinary) {
   Grid<std::uint8_t> occupied(200, 200);
   occupied.at({120, 100}) = 1;

@@ -38,7 +38,7 @@ const std::vector<Folder>& floor_plan() {
       {"datasets", {"motion"}, {}},
       {"datasets/io", {"motion", "datasets"}, {"opencv", "json", "yaml", "zlib"}},
       {"datasets/sim", {"motion", "datasets", "registration"}, {}},
-      {"registration", {"motion", "datasets"}, {"highway", "opencv"}},
+      {"registration", {"motion", "datasets"}, {"highway", "opencv", "open3d"}},
       {"registration/train",
        {"motion", "datasets", "registration", "datasets/sim"},
        {"torch", "onnx"}},
@@ -195,6 +195,7 @@ std::string spelling(const std::string& library) {
                                                                 {"ompl", "OMPL"},
                                                                 {"torch", "libtorch"},
                                                                 {"onnx", "libonnx"},
+                                                                {"open3d", "Open3D"},
                                                                 {"benchmark", "Google Benchmark"},
                                                                 {"googletest", "GoogleTest"}};
   return kSpellings.at(library);
