@@ -1,7 +1,5 @@
 #include "apps/localize_command.hpp"
 
-#include <spdlog/spdlog.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "apps/input_checks.hpp"
+#include "apps/inputs.hpp"
 #include "apps/memory.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
@@ -24,7 +23,6 @@
 #include "datasets/io/reference_io.hpp"
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/sketch_io.hpp"
-#include "motion/number_text.hpp"
 
 namespace sketchloc {
 namespace {
@@ -49,41 +47,17 @@ void check_starts(const LocalizeOptions& options) {
   }
 }
 
-void warn(const std::filesystem::path& file, const std::vector<std::string>& doubts) {
-  for (const std::string& doubt : doubts) {
-    spdlog::warn("{}: {}", file.string(), doubt);
-  }
-}
-
-Reference read_reference_of(const LocalizeOptions& options, const RunRecord& record) {
-  Reference reference = read_reference(options.reference, record.sketch.height_px());
-  std::vector<double> scan_times_s;
-  for (const RunStep& step : record.run.steps) {
-    scan_times_s.push_back(step.scan.time_s);
-  }
-  if (is_of_another_run(reference, scan_times_s)) {
-    throw std::runtime_error(options.reference.string() + ": its times are not those of " +
-                             options.log.string() + "; give the reference of this log");
-  }
-  warn(options.reference, doubts_about(reference, scan_times_s));
-  return reference;
-}
-
 /// Reads all inputs into the record of the run.
 RunRecord read_inputs(const LocalizeOptions& options) {
   RunRecord record;
   record.seed = options.seed;
   record.commit = std::string(commit());
-  record.sketch = read_any_drawing(options.map, options.drawing);
-  warn(options.map, doubts_about(record.sketch));
-  RunFile log = read_run_file(options.log, options.reading);
-  for (const std::string& note : log.notes) {
-    spdlog::info("{}", note);
-  }
-  record.run = std::move(log.run);
-  warn(options.log, doubts_about(record.run));
+  record.sketch = read_drawing_input(options.map, options.drawing);
+  record.run = read_log_input(options.log, options.reading);
   if (!options.reference.empty()) {
-    record.reference = read_reference_of(options, record);
+    record.reference = read_reference_input(options.reference, record.sketch.height_px(),
+                                            {record.run, options.log});
+    warn_of(options.reference, doubts_about(*record.reference, scan_times_s(record.run)));
     for (const std::filesystem::path& csv : options.alternatives) {
       record.alternatives.push_back(
           as_reference(read_alternative(csv, record.sketch.height_px()), *record.reference));
@@ -92,50 +66,11 @@ RunRecord read_inputs(const LocalizeOptions& options) {
   return record;
 }
 
-/// The scale that was typed must make a building of the drawing.
-void check_scale(const LocalizeOptions& options, const Sketch& sketch, double px_per_m) {
-  constexpr double kSmallest_m = 1.0;
-  constexpr double kLargest_m = 10'000.0;
-  const double side_m = std::max(sketch.width_px(), sketch.height_px()) / px_per_m;
-  if (side_m < kSmallest_m || side_m > kLargest_m) {
-    throw std::invalid_argument(
-        "--start " + options.start + ": with that PX_PER_M the longer side of " +
-        options.map.string() + " is " + number_text(side_m) + " m; it must be from 1 m to 10000 m");
-  }
-}
-
-Sim2 typed_start(const LocalizeOptions& options, const RunRecord& record) {
-  const StartPose start = parse_start_pose(options.start);
-  const Sketch& sketch = record.sketch;
-  const Eigen::Array2d size_px(sketch.width_px(), sketch.height_px());
-  if ((start.place_in_sketch.array() < 0.0).any() ||
-      (start.place_in_sketch.array() > size_px).any()) {
-    throw std::invalid_argument("--start " + options.start + ": the place is outside " +
-                                options.map.string() + ", which is " +
-                                std::to_string(sketch.width_px()) + " px wide and " +
-                                std::to_string(sketch.height_px()) + " px high");
-  }
-  if (start.px_per_m) {
-    check_scale(options, sketch, *start.px_per_m);
-  }
-  std::optional<double> px_per_m = start.px_per_m ? start.px_per_m : sketch.px_per_m;
-  if (!px_per_m) {
-    px_per_m = guess_px_per_m(sketch, start.place_in_sketch, start.heading_rad,
-                              record.run.steps.front().scan);
-    if (!px_per_m) {
-      throw std::runtime_error(
-          "--start without PX_PER_M: the first scan does not tell the scale there; give PX_PER_M");
-    }
-    spdlog::info("the first scan suggests {:.1f} px/m at the start", *px_per_m);
-  }
-  return Sim2::from_xy_yaw_scale(start.place_in_sketch.x(), start.place_in_sketch.y(),
-                                 start.heading_rad, *px_per_m);
-}
-
 /// Where the run starts; none: anywhere.
 std::optional<Sim2> start_of(const LocalizeOptions& options, const RunRecord& record) {
   if (!options.start.empty()) {
-    return typed_start(options, record);
+    return pose_in_drawing(options.start, "--start", {record.sketch, options.map},
+                           record.run.steps.front().scan);
   }
   if (!options.start_from_reference) {
     return std::nullopt;

@@ -1,8 +1,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <string_view>
+
+#include "datasets/scan.hpp"
+#include "datasets/sketch.hpp"
+#include "motion/sim2.hpp"
 
 namespace sketchloc {
 
@@ -14,7 +20,20 @@ struct StartPose {
 };
 
 /// Reads "X,Y,HEADING_DEG" or "X,Y,HEADING_DEG,PX_PER_M". Throws std::invalid_argument saying what
-/// is wrong with it.
-StartPose parse_start_pose(std::string_view text);
+/// is wrong with it and with which flag.
+StartPose parse_start_pose(std::string_view text, const std::string& flag = "--start");
+
+/// A drawing with the name that people know it by.
+struct NamedSketch {
+  const Sketch& sketch;
+  std::filesystem::path file;
+};
+
+/// The pose that a text means in a drawing; where the text has no scale, that of a metric map, else
+/// the scale that the scan there suggests, with a note. Throws std::invalid_argument where the
+/// place is outside of the drawing or the scale makes no building of it, std::runtime_error where
+/// nothing tells the scale.
+Sim2 pose_in_drawing(std::string_view text, const std::string& flag, const NamedSketch& drawing,
+                     const Scan& scan);
 
 }  // namespace sketchloc

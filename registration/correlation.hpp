@@ -8,6 +8,10 @@ namespace sketchloc {
 inline constexpr int kCorrelationReach = 4;
 inline constexpr int kCorrelationShifts = (2 * kCorrelationReach + 1) * (2 * kCorrelationReach + 1);
 
+/// The name of `correlate` as an operation in ONNX files, and the domain it is of.
+inline constexpr const char* kCorrelationOperation = "Correlation";
+inline constexpr const char* kOperationDomain = "sketchloc";
+
 /// A map of features: planes of side x side cells, one after the other, each row by row.
 struct FeatureShape {
   int channels = 1;

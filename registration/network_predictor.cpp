@@ -28,10 +28,10 @@ std::size_t outputs_of(PredictorKind kind) {
   return 0;
 }
 
-/// OpenCV warns of every operation that is not its own.
+/// OpenCV warns of every operation that is not its own, and prints what it throws too.
 class SilentOpenCv {
  public:
-  SilentOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_ERROR)) {}
+  SilentOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
   ~SilentOpenCv() { cv::utils::logging::setLogLevel(before_); }
   SilentOpenCv(const SilentOpenCv&) = delete;
   SilentOpenCv& operator=(const SilentOpenCv&) = delete;
@@ -42,7 +42,6 @@ class SilentOpenCv {
 
 cv::dnn::Net read_network(std::span<const std::uint8_t> onnx) {
   detail::register_correlation_layer();
-  const SilentOpenCv silent;
   cv::dnn::Net network =
       cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(onnx.data()), onnx.size());
   network.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
@@ -55,6 +54,7 @@ class NetworkPredictor final : public WarpPredictor {
                    const NetworkPredictorParams& params)
       : params_((validate(params), params)), kind_(kind) {
     try {
+      const SilentOpenCv silent;
       network_ = read_network(onnx);
       const std::vector<float> nothing(input_size(), 0.0F);
       const cv::Mat output = forward(nothing, 1);

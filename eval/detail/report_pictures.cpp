@@ -2,9 +2,9 @@
 #include <cmath>
 #include <optional>
 
-#include "datasets/scan.hpp"
 #include "eval/detail/raster.hpp"
 #include "eval/detail/report_model.hpp"
+#include "eval/detail/scan_marks.hpp"
 #include "eval/detail/text.hpp"
 #include "motion/angles.hpp"
 
@@ -91,23 +91,10 @@ std::string moment_labels(const ReportModel& model) {
 std::string robot_svg(const Sim2& sketch_from_robot, const SketchToSvg& to_svg,
                       const Colour& colour, double view_width) {
   constexpr double kSmallestShare = 0.03;
-  const double size = std::max(1.0, kSmallestShare * view_width / sketch_from_robot.scale());
-  Polyline outline = {{0.7 * size, 0.0}, {-0.4 * size, 0.4 * size}, {-0.4 * size, -0.4 * size}};
-  for (Eigen::Vector2d& corner : outline) {
-    corner = sketch_from_robot * corner;
-  }
-  const std::vector<Polyline> lines = {outline};
+  const double size_m = std::max(1.0, kSmallestShare * view_width / sketch_from_robot.scale());
+  const std::vector<Polyline> lines = {robot_outline(sketch_from_robot, size_m)};
   return "<path class=\"robot\" d=\"" + path_data(lines, to_svg) + "Z\" fill=\"" + hex(colour) +
          "\"/>";
-}
-
-/// The scan's end points as the drawing would have them at a pose.
-std::vector<Eigen::Vector2d> scan_in_sketch(const Scan& scan, const Sim2& sketch_from_robot) {
-  std::vector<Eigen::Vector2d> points = end_points_in_robot(scan);
-  for (Eigen::Vector2d& point : points) {
-    point = sketch_from_robot * point;
-  }
-  return points;
 }
 
 /// A square around the poses at a moment with some metres to spare.
@@ -144,10 +131,11 @@ std::string scan_panel(const ReportModel& model, const Moment& moment) {
   const View view = square_around(estimate, reference);
   std::string svg = open_view(view, model.to_svg, "Scan on the drawing, moment " + moment.letter);
   if (reference) {
-    svg += stroke(dot_data(scan_in_sketch(scan, *reference), model.to_svg), kReferenceBlue, kDot) +
+    svg += stroke(dot_data(end_points_in_sketch(scan, *reference), model.to_svg), kReferenceBlue,
+                  kDot) +
            robot_svg(*reference, model.to_svg, kReferenceBlue, view.width());
   }
-  svg += stroke(dot_data(scan_in_sketch(scan, estimate), model.to_svg), kEstimate, kDot) +
+  svg += stroke(dot_data(end_points_in_sketch(scan, estimate), model.to_svg), kEstimate, kDot) +
          robot_svg(estimate, model.to_svg, kEstimate, view.width());
   return std::string(moment.reason.empty() ? "<figure>" : "<figure class=\"notable\">") + svg +
          "</svg>" + moment_caption(model, moment) + "</figure>";

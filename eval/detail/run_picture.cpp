@@ -171,17 +171,34 @@ std::vector<PathLayer> path_layers(const RunRecord& record, std::span<const Step
   return layers;
 }
 
-Grid<std::uint8_t> paper(const Sketch& sketch) {
+Grid<std::uint8_t> paper(const Sketch& sketch, std::uint8_t ink) {
   constexpr std::uint8_t kPaper = 255;
-  constexpr std::uint8_t kInk = 150;
   constexpr std::uint8_t kOutside = 205;
-  const std::uint8_t occupied = sketch.kind == Sketch::Kind::Strokes ? kInk : kOutside;
+  const std::uint8_t occupied = sketch.kind == Sketch::Kind::Strokes ? ink : kOutside;
   Grid<std::uint8_t> grey(sketch.width_px(), sketch.height_px(), kPaper);
   for (int row = 0; row < grey.height(); ++row) {
     std::ranges::transform(sketch.occupied.row(row), grey.row(row).begin(),
                            [&](std::uint8_t cell) { return cell != 0 ? occupied : kPaper; });
   }
   return grey;
+}
+
+PaperExcerpt paper_excerpt(const Sketch& sketch, const View& view, std::uint8_t ink) {
+  const Eigen::Array2d size_px(sketch.width_px(), sketch.height_px());
+  const Eigen::Array2d low = view.low.array().floor().max(0.0).min(size_px);
+  const Eigen::Array2d high = view.high.array().ceil().max(low).min(size_px);
+  const Eigen::Array2i first = low.cast<int>();
+  const Eigen::Array2i size = (high - low).cast<int>();
+  Sketch part{.occupied = Grid<std::uint8_t>(size.x(), size.y()),
+              .kind = sketch.kind,
+              .px_per_m = std::nullopt};
+  for (int row = 0; row < size.y(); ++row) {
+    const auto from =
+        sketch.occupied.row(first.y() + row)
+            .subspan(static_cast<std::size_t>(first.x()), static_cast<std::size_t>(size.x()));
+    std::ranges::copy(from, part.occupied.row(row).begin());
+  }
+  return {.grey = paper(part, ink), .view = {.low = low, .high = high}};
 }
 
 }  // namespace sketchloc::detail

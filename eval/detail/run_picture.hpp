@@ -58,6 +58,15 @@ View whole_view(const RunRecord& record, std::span<const PathLayer> layers);
 std::vector<PathLayer> path_layers(const RunRecord& record, std::span<const StepError> errors);
 
 /// Grey values of the drawing as it lies under the paths: white paper, grey ink.
-Grid<std::uint8_t> paper(const Sketch& sketch);
+Grid<std::uint8_t> paper(const Sketch& sketch, std::uint8_t ink = 150);
+
+/// A part of a drawing in whole pixels.
+struct PaperExcerpt {
+  Grid<std::uint8_t> grey;  ///< as of paper(); empty where the view shows nothing of the drawing
+  View view;                ///< what it shows
+};
+
+/// What a view shows of the drawing itself: nothing of what lies beyond its edges.
+PaperExcerpt paper_excerpt(const Sketch& sketch, const View& view, std::uint8_t ink);
 
 }  // namespace sketchloc::detail

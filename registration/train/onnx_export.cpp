@@ -3,7 +3,7 @@
 #include <initializer_list>
 #include <string>
 
-#include "registration/detail/correlation_layer.hpp"
+#include "registration/correlation.hpp"
 #include "registration/train/network_plan.hpp"
 
 namespace sketchloc {
@@ -57,7 +57,7 @@ class GraphWriter {
     last_ = drawing_input;
     add(layer.drawing);
     const std::string drawing = last_;
-    append(detail::kCorrelationOperation, {scan, drawing}).set_domain(detail::kOperationDomain);
+    append(kCorrelationOperation, {scan, drawing}).set_domain(kOperationDomain);
     add_integer(append("Concat", {scan, drawing, last_}), "axis", 1);
   }
 
@@ -153,7 +153,7 @@ std::string onnx_bytes(const FoldedNetwork& network) {
   model.set_producer_name("sketchloc");
   model.add_opset_import()->set_version(11);
   onnx::OperatorSetIdProto& own_operations = *model.add_opset_import();
-  own_operations.set_domain(detail::kOperationDomain);
+  own_operations.set_domain(kOperationDomain);
   own_operations.set_version(1);
   onnx::GraphProto& graph = *model.mutable_graph();
   graph.set_name("registration");

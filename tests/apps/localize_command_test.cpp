@@ -178,7 +178,7 @@ TEST_F(LocalizeCommandEndToEnd, FindsTheScaleOfATypedStart) {
         << deg_from_rad(start_sketch_from_robot_.yaw_rad());
   const CommandResult guessed = localize(outputs_ / "guessed", {"--start", start.str()});
   EXPECT_EQ(guessed.exit_code, 0) << guessed.err;
-  EXPECT_THAT(guessed.err, HasSubstr("px/m at the start"));
+  EXPECT_THAT(guessed.err, HasSubstr("px/m there"));
   const CommandResult typed = localize(outputs_ / "typed", {"--start", start.str() + ",20"});
   EXPECT_EQ(typed.exit_code, 0) << typed.err;
 }

@@ -23,5 +23,14 @@ TEST(StartPose, RejectsEverythingElse) {
   }
 }
 
+TEST(StartPose, NamesTheFlagThatItCameFrom) {
+  try {
+    parse_start_pose("1,2", "--prior");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("--prior must be")) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace sketchloc

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "registration/network_predictor.hpp"
+
+namespace sketchloc {
+
+/// The trained network of a kind that comes with the program, as the bytes of an ONNX file. Empty
+/// where there is none.
+std::span<const std::uint8_t> shipped_network(PredictorKind kind);
+
+}  // namespace sketchloc
