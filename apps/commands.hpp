@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "apps/ablate_command.hpp"
 #include "apps/convert_command.hpp"
 #include "apps/demo_command.hpp"
 #include "apps/evaluate_command.hpp"
@@ -16,7 +17,7 @@ namespace sketchloc {
 // One per <name>_command.cpp, in the order of --help.
 
 inline constexpr auto kCommands = std::to_array<AddCommand>(
-    {add_demo_command, add_localize_command, add_register_command, add_evaluate_command,
-     add_generate_command, add_convert_command, add_train_command});
+    {add_demo_command, add_localize_command, add_register_command, add_ablate_command,
+     add_evaluate_command, add_generate_command, add_convert_command, add_train_command});
 
 }  // namespace sketchloc

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/given_network.hpp"
 #include "apps/inputs.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
@@ -41,43 +42,6 @@ const std::map<std::string, RegistrationMethod>& methods() {
   static const auto names = names_of(RegistrationMethod{});
   static const std::map<std::string, RegistrationMethod> methods(names.begin(), names.end());
   return methods;
-}
-
-std::vector<std::uint8_t> read_network(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::vector<std::uint8_t> bytes;
-  if (stream && fs::is_regular_file(file)) {
-    bytes.assign(std::istreambuf_iterator<char>(stream), {});
-  }
-  if (bytes.empty()) {
-    throw std::runtime_error(file.string() +
-                             ": cannot be read or is empty; give the network.onnx of sketchloc "
-                             "train");
-  }
-  return bytes;
-}
-
-std::unique_ptr<WarpPredictor> predictor_of(const RegisterOptions& options,
-                                            const NetworkPredictorParams& params) {
-  if (options.network.empty()) {
-    try {
-      return make_predictor(options.method, std::nullopt, params);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(std::string(error.what()) + ", by --network FILE.onnx");
-    }
-  }
-  const std::string method = name_of(methods(), options.method);
-  if (!network_of(options.method)) {
-    throw std::invalid_argument("--method " + method + " runs no network; leave out --network");
-  }
-  const std::vector<std::uint8_t> onnx = read_network(options.network);
-  try {
-    return make_predictor(options.method, onnx, params);
-  } catch (const std::runtime_error& error) {
-    spdlog::debug("{}", error.what());
-    throw std::runtime_error(options.network.string() + ": is no network for --method " + method +
-                             "; give the network.onnx of sketchloc train --network " + method);
-  }
 }
 
 /// The scan that was asked for, as an index.
@@ -166,7 +130,7 @@ struct Registered {
 void register_into(RegistrationResult& result, WarpPredictor& predictor,
                    std::span<const PlacedScan> submap, const Sketch& sketch) {
   using Clock = std::chrono::steady_clock;
-  const SketchCropper cropper(sketch.occupied);
+  const SketchCropper cropper(sketch);
   const Clock::time_point begin = Clock::now();
   auto found = predictor.predict(submap, cropper, std::span(&result.prior_sketch_from_robot, 1));
   result.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -174,7 +138,8 @@ void register_into(RegistrationResult& result, WarpPredictor& predictor,
 }
 
 Registered register_scan(const RegisterOptions& options, const RegisterParams& params) {
-  const std::unique_ptr<WarpPredictor> predictor = predictor_of(options, params.predictor);
+  const std::unique_ptr<WarpPredictor> predictor =
+      predictor_from(options.method, options.network, params.predictor);
   Sketch sketch = read_drawing_input(options.map, options.drawing);
   const Run run = read_log_input(options.log, options.reading);
   const std::size_t step = chosen_step(options, run);

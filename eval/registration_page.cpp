@@ -70,11 +70,12 @@ std::string main_table(const RegistrationPage& page) {
            mean_text(row.share_right, 100.0, 0), fixed(row.median_ms, 1)});
     }
   }
-  return table({"drawings", "method", "priors", "trials", "prior median, cm", "error mean, cm",
-                "median, cm", "p90, cm", "heading mean, deg", "median, deg", "nearer than prior, %",
-                "within 0.5 m 15 deg, %", "ms"},
+  return table({"drawings", "method", "priors", "n", "prior cm", "mean cm", "median cm", "p90 cm",
+                "mean deg", "median deg", "nearer %", "right %", "ms"},
                lines) +
-         "<p class=\"note\">In brackets: 95&#160;% intervals, by bootstrap over the drives. "
+         "<p class=\"note\">Errors of position and heading; prior: its median error; nearer: than "
+         "the prior; right: within 0.5 m and 15 deg. In brackets: 95&#160;% intervals, by "
+         "bootstrap over the drives. "
          "Chained: each prior is the last result moved by the odometry, from a true start. A "
          "method "
          "that gives no answer keeps its prior. Published for the chained protocol, other "

@@ -44,7 +44,7 @@ RegistrationSet make_registration_set(std::string name, std::string kind, Sketch
                                       const Run& run, const Reference& reference,
                                       const RegistrationSetParams& params) {
   validate(params);
-  SketchCropper drawing(sketch.occupied);
+  SketchCropper drawing(sketch);
   RegistrationSet set{.name = std::move(name),
                       .kind = std::move(kind),
                       .sketch = std::move(sketch),

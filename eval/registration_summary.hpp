@@ -81,9 +81,12 @@ std::vector<RegistrationDifference> compare_registration(std::span<const Registr
                                                          const std::string& method,
                                                          std::uint64_t seed = 1);
 
-/// Everything as JSON.
+/// Everything but the times as JSON: the same for the same seed.
 std::string registration_json(std::span<const RegistrationRow> rows,
                               std::span<const RegistrationDifference> differences);
+
+/// What a registration took, ms; another one every time.
+std::string registration_timing_json(std::span<const RegistrationRow> rows);
 
 /// A table for a document.
 std::string registration_markdown(std::span<const RegistrationRow> rows);

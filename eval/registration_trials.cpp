@@ -126,7 +126,7 @@ std::vector<RegistrationTrial> run_around_truth(const RegistrationSet& set,
 std::string trials_csv(std::span<const RegistrationTrial> trials) {
   std::string text =
       "set,kind,protocol,method,index,prior_m,prior_deg,found,error_m,error_deg,log_scale_error,"
-      "nees_position,nees_pose,inlier_probability,milliseconds\n";
+      "nees_position,nees_pose,inlier_probability\n";
   for (const RegistrationTrial& trial : trials) {
     text += trial.set + "," + trial.kind + "," + trial.protocol + "," + trial.method + "," +
             std::to_string(trial.index);
@@ -142,7 +142,6 @@ std::string trials_csv(std::span<const RegistrationTrial> trials) {
     add(trial.nees_position);
     add(trial.nees_pose);
     add(trial.inlier_probability);
-    add(trial.milliseconds);
     text += "\n";
   }
   return text;

@@ -62,7 +62,7 @@ std::vector<RegistrationTrial> run_around_truth(const RegistrationSet& set,
                                                 const std::string& protocol,
                                                 const PriorSpread& spread, std::uint64_t seed);
 
-/// A table of trials, a line each.
+/// A table of trials, a line each, without the times.
 std::string trials_csv(std::span<const RegistrationTrial> trials);
 
 }  // namespace sketchloc

@@ -1,6 +1,7 @@
 #include "registration/network_predictor.hpp"
 
 #include <array>
+#include <mutex>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn/dnn.hpp>
 #include <stdexcept>
@@ -28,15 +29,24 @@ std::size_t outputs_of(PredictorKind kind) {
   return 0;
 }
 
-/// OpenCV warns of every operation that is not its own, and prints what it throws too.
+/// OpenCV warns of every operation that is not its own, and prints what it throws too. Its log
+/// level is the whole process's, so one at a time.
 class SilentOpenCv {
  public:
-  SilentOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
+  SilentOpenCv()
+      : alone_(mutex()),
+        before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
   ~SilentOpenCv() { cv::utils::logging::setLogLevel(before_); }
   SilentOpenCv(const SilentOpenCv&) = delete;
   SilentOpenCv& operator=(const SilentOpenCv&) = delete;
 
  private:
+  static std::mutex& mutex() {
+    static std::mutex mutex;
+    return mutex;
+  }
+
+  std::lock_guard<std::mutex> alone_;
   cv::utils::logging::LogLevel before_;
 };
 

@@ -18,7 +18,7 @@ std::span<const std::pair<std::string_view, PredictorKind>> names_of(PredictorKi
 
 struct NetworkPredictorParams {
   LocalWindow window;  ///< the one that the network was trained with
-  int iterations = 3;  ///< ours: how often it looks again from its own result, >= 1
+  int iterations = 2;  ///< ours: how often it looks again from its own result, >= 1
 };
 
 template <typename Visitor>

@@ -3,16 +3,21 @@
 #include "motion/check.hpp"
 
 // Puts the bytes of a file between two symbols.
-#define SKETCHLOC_EMBED(name)                                 \
-  asm(".section .rodata\n"                                    \
-      ".balign 16\n"                                          \
-      ".global sketchloc_" #name "_begin\n"                   \
-      "sketchloc_" #name "_begin:\n"                          \
-      ".incbin \"" SKETCHLOC_NETWORKS "/" #name ".onnx\"\n" \
-      ".global sketchloc_" #name "_end\n"                     \
-      "sketchloc_" #name "_end:\n"                            \
-      ".previous\n");                                         \
-  extern "C" const std::uint8_t sketchloc_##name##_begin[];   \
+#define SKETCHLOC_EMBED(name)                               \
+  asm(".section .rodata\n"                                  \
+      ".balign 16\n"                                        \
+      ".global sketchloc_" #name                            \
+      "_begin\n"                                            \
+      "sketchloc_" #name                                    \
+      "_begin:\n"                                           \
+      ".incbin \"" SKETCHLOC_NETWORKS "/" #name             \
+      ".onnx\"\n"                                           \
+      ".global sketchloc_" #name                            \
+      "_end\n"                                              \
+      "sketchloc_" #name                                    \
+      "_end:\n"                                             \
+      ".previous\n");                                       \
+  extern "C" const std::uint8_t sketchloc_##name##_begin[]; \
   extern "C" const std::uint8_t sketchloc_##name##_end[]
 
 #ifdef SKETCHLOC_HAS_ours

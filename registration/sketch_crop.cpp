@@ -38,7 +38,27 @@ PixelBox box_around(const Sim2& sketch_from_cells, int cells, int width, int hei
           {clip(high.x() + 1.0, width), clip(high.y() + 1.0, height)}};
 }
 
+/// The occupied pixels with a free one beside them.
+Grid<std::uint8_t> outline_of(const Grid<std::uint8_t>& occupied) {
+  Grid<std::uint8_t> outline(occupied.width(), occupied.height());
+  const auto is_free = [&](int column, int row) {
+    return occupied.contains({column, row}) && occupied.at({column, row}) == 0;
+  };
+  for (int row = 0; row < occupied.height(); ++row) {
+    for (int column = 0; column < occupied.width(); ++column) {
+      const bool beside_free = is_free(column - 1, row) || is_free(column + 1, row) ||
+                               is_free(column, row - 1) || is_free(column, row + 1);
+      outline.at({column, row}) = occupied.at({column, row}) != 0 && beside_free ? 1 : 0;
+    }
+  }
+  return outline;
+}
+
 }  // namespace
+
+SketchCropper::SketchCropper(const Sketch& sketch)
+    : SketchCropper(sketch.kind == Sketch::Kind::FilledFreeSpace ? outline_of(sketch.occupied)
+                                                                 : sketch.occupied) {}
 
 SketchCropper::SketchCropper(const Grid<std::uint8_t>& occupied)
     : distance_px_(distance_field_px(occupied)), caster_(occupied) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "datasets/grid.hpp"
+#include "datasets/sketch.hpp"
 #include "motion/sim2.hpp"
 #include "registration/local_window.hpp"
 #include "registration/ray_caster.hpp"
@@ -29,6 +30,9 @@ class SketchCropper {
  public:
   /// Anything but zero is a stroke.
   explicit SketchCropper(const Grid<std::uint8_t>& occupied);
+
+  /// Where free space was painted, its outline is the strokes.
+  explicit SketchCropper(const Sketch& sketch);
 
   /// Turned and scaled by the prior, so that scan and crop overlay where the prior is right and the
   /// drawing is true.

@@ -28,7 +28,8 @@ struct ChartMark {
   std::string letter;
 };
 
-/// Curves over time or over another number. Everything beyond y_high is cut off, so the caption should say so.
+/// Curves over time or over another number. Everything beyond y_high is cut off, so the caption
+/// should say so.
 struct Chart {
   std::string title;
   std::string unit;

@@ -12,10 +12,12 @@
 #include "datasets/sim/odometry_model.hpp"
 #include "datasets/sim/person.hpp"
 #include "eval/localization.hpp"
+#include "eval/registration_suite.hpp"
 #include "filter/localizer.hpp"
 #include "motion/odometry.hpp"
 #include "registration/icp_predictor.hpp"
 #include "registration/matched_odometry.hpp"
+#include "registration/network_predictor.hpp"
 #include "registration/train/sample_source.hpp"
 #include "tests/support/field_count.hpp"
 
@@ -31,7 +33,8 @@ using ParameterStructs =
                      KldParams, ModeParams, MotionGate, StartSpread, RecoveryParams,
                      RangeTableParams, MatchedOdometryParams, LocalizerParams, LocalizationParams,
                      GenerateParams, SceneParams, PriorError, SampleParams, SampleSourceParams,
-                     IcpParams>;
+                     IcpParams, RecentScansParams, RegistrationSuiteParams, RegistrationSetParams,
+                     NetworkPredictorParams>;
 TYPED_TEST_SUITE(Parameters, ParameterStructs);
 
 template <ParameterStruct T>

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <vector>
@@ -184,6 +185,18 @@ TEST(SketchCrop, KeepsThePublishedCropUprightAndBinary) {
   const Grid<float> crop = SketchCropper(occupied).upright_crop({100.0, 100.0}, 80.0, 40);
   EXPECT_EQ(crop.at({30, 20}), 1.0F);
   EXPECT_EQ(std::accumulate(crop.cells().begin(), crop.cells().end(), 0.0F), 1.0F);
+}
+
+TEST(SketchCrop, TakesTheOutlineOfPaintedFreeSpace) {
+  Sketch sketch{.occupied = Grid<std::uint8_t>(60, 60, 1),
+                .kind = Sketch::Kind::FilledFreeSpace,
+                .px_per_m = {}};
+  for (int row = 20; row < 40; ++row) {
+    std::ranges::fill(sketch.occupied.row(row).subspan(20, 20), std::uint8_t{0});
+  }
+  EXPECT_EQ(SketchCropper(sketch).ink_near({30.0, 30.0}, 100.0).size(), 4U * 20U);
+  sketch.kind = Sketch::Kind::Strokes;
+  EXPECT_EQ(SketchCropper(sketch).ink_near({30.0, 30.0}, 100.0).size(), 60U * 60U - 20U * 20U);
 }
 
 TEST(SketchCrop, TakesABlankSheet) {

@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "datasets/io/reference_io.hpp"
+#include "datasets/io/run_io.hpp"
+#include "datasets/io/sketch_writer.hpp"
+#include "datasets/sim/data_set.hpp"
+#include "registration/network_output.hpp"
+#include "tests/support/constant_network.hpp"
+#include "tests/support/run_command.hpp"
+#include "tests/support/shared_data.hpp"
+
+namespace sketchloc {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::CommandResult;
+using ::testing::HasSubstr;
+using testing::TemporaryDirectory;
+
+std::string content_of(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+/// One building, one drawing, no sweeps; `ours` says that every prior is right.
+class AblateCommandEndToEnd : public ::testing::Test {
+ protected:
+  AblateCommandEndToEnd() {
+    const std::vector<float> nothing(ResidualOutput::kSize, 0.0F);
+    std::ofstream(folder_ / "ours.onnx", std::ios::binary) << testing::constant_network(5, nothing);
+  }
+
+  std::string in(const std::string& name) const { return (folder_ / name).string(); }
+
+  CommandResult run(const std::vector<std::string>& more, const std::string& out = "out") const {
+    std::vector<std::string> command = {SKETCHLOC_PROGRAM,
+                                        "ablate",
+                                        "--methods",
+                                        "ours,none",
+                                        "--network",
+                                        "ours=" + in("ours.onnx"),
+                                        "--registration.warps",
+                                        "1",
+                                        "--registration.drive_m",
+                                        "3",
+                                        "--registration.sweeps",
+                                        "false",
+                                        "--out",
+                                        in(out)};
+    command.insert(command.end(), more.begin(), more.end());
+    return testing::run_command(command);
+  }
+
+  TemporaryDirectory folder_;
+};
+
+TEST_F(AblateCommandEndToEnd, ComparesMethodsOnTheSameQuestions) {
+  const CommandResult result = run({"--registration.plans", "1"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto metrics = nlohmann::json::parse(content_of(in("out/metrics.json")));
+  ASSERT_EQ(metrics["rows"].size(), 8U);  // tps and human, chained and around the truth
+  for (const auto& row : metrics["rows"]) {
+    const double error = row["translation_error_m"]["mean"];
+    const double prior = row["prior_error_m"]["mean"];
+    EXPECT_NEAR(error, prior, 1e-4) << row["method"];
+  }
+  for (const auto& difference : metrics["differences"]) {
+    EXPECT_NEAR(difference["translation_error_m"]["mean"], 0.0, 1e-4);
+  }
+  EXPECT_THAT(content_of(in("out/report.html")), HasSubstr("The worst"));
+  EXPECT_THAT(content_of(in("out/trials.csv")), HasSubstr("tps plan 1 drawing 1"));
+}
+
+TEST_F(AblateCommandEndToEnd, GivesTheSameForTheSameSeed) {
+  ASSERT_EQ(run({"--registration.plans", "1", "--methods", "none"}, "a").exit_code, 0);
+  ASSERT_EQ(run({"--registration.plans", "1", "--methods", "none", "--jobs", "2"}, "b").exit_code,
+            0);
+  EXPECT_EQ(content_of(in("a/metrics.json")), content_of(in("b/metrics.json")));
+}
+
+TEST_F(AblateCommandEndToEnd, AsksAboutRecordedRuns) {
+  DataSetParams params;
+  params.building = BuildingKind::Home;
+  params.drive.length_m = 3.0;
+  const DataSet made = generate_data_set(params, 4);
+  write_sketch(in("d.png"), made.drawing.sketch);
+  write_jsonl(in("log.jsonl"), made.run);
+  write_reference(in("ref.csv"), made.reference, made.drawing.sketch.height_px());
+  const CommandResult result =
+      run({"--registration.plans", "0", "--set",
+           in("d.png") + "," + in("log.jsonl") + "," + in("ref.csv") + ",home"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("| home | chained | ours |"));
+}
+
+TEST_F(AblateCommandEndToEnd, SaysWhatIsWrongWithItsInputs) {
+  const auto refuses = [&](const std::vector<std::string>& more, const std::string& why) {
+    const CommandResult result = run(more);
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_THAT(result.err, HasSubstr(why));
+    EXPECT_FALSE(fs::exists(in("out")));
+  };
+  refuses({"--methods", "ours,magic"}, "there is no magic");
+  refuses({"--registration.plans", "0"}, "nothing to run");
+  refuses({"--registration.plans", "0", "--set", "a.png,b.log"}, "DRAWING,LOG,REFERENCE.csv");
+  refuses({"--registration.plans", "0", "--set", in("no.png") + ",b.log,c.csv"}, "no.png");
+  refuses({"--network", "ours=" + in("none.onnx")}, "none.onnx");
+  refuses({"--network", in("ours.onnx")}, "METHOD=FILE");
+  refuses({"--suite", "cooking"}, "registration");
+  refuses({"--registration.prior_turn_deg", "500"}, "prior_turn_deg");
+}
+
+}  // namespace
+}  // namespace sketchloc
