@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "apps/given_network.hpp"
+#include "apps/inputs.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/parallel.hpp"
@@ -26,9 +27,6 @@
 #include "apps/progress.hpp"
 #include "apps/run_file.hpp"
 #include "datasets/io/atomic_file.hpp"
-#include "datasets/io/reference_io.hpp"
-#include "datasets/io/run_io.hpp"
-#include "datasets/io/sketch_io.hpp"
 #include "eval/predictors.hpp"
 #include "eval/registration_page.hpp"
 #include "eval/registration_picture.hpp"
@@ -168,9 +166,10 @@ RegistrationTask recorded_task(const std::string& text, const RegistrationSuiteP
   const std::string name = parts.size() == 4 ? parts[3] : fs::path(parts[0]).stem().string();
   const std::string kind = name.substr(0, name.find('/'));
   const auto make = [parts, name, kind, params] {
-    Sketch sketch = read_any_drawing(parts[0]);
-    const Run run = read_run(parts[1]);
-    const Reference reference = read_reference(parts[2], sketch.height_px());
+    Sketch sketch = read_drawing_input(parts[0], {});
+    const Run run = read_log_input(parts[1], {});
+    const Reference reference =
+        read_reference_input(parts[2], sketch.height_px(), {.run = run, .log = parts[1]});
     RegistrationSet set =
         make_registration_set(name, kind, std::move(sketch), run, reference, params.set);
     if (set.steps.empty()) {
@@ -180,6 +179,42 @@ RegistrationTask recorded_task(const std::string& text, const RegistrationSuiteP
   };
   return {.set = name, .make = make, .around_truth = {main_protocol(params)}, .seed = seed};
 }
+
+/// Asks questions again, to draw what came of them; remembers the drives.
+class ExampleMaker {
+ public:
+  ExampleMaker(const std::vector<RegistrationTask>& tasks, const NamedMethod& method,
+               const NetworkPredictorParams& params)
+      : tasks_(tasks), predictors_({method}, params), window_(params.window) {}
+
+  RegistrationExample operator()(const RegistrationTrial& trial) {
+    const auto task = std::ranges::find(tasks_, trial.set, &RegistrationTask::set);
+    auto known = sets_.find(trial.set);
+    if (known == sets_.end()) {
+      known = sets_.emplace(trial.set, task->make()).first;
+    }
+    const RegistrationSet& set = known->second;
+    const RegistrationMethodUse& method = predictors_.uses().front();
+    const Sim2 prior = first_prior_of(*task, set, trial.index);
+    const std::optional<Registration> found = ask(set, trial.index, method, prior);
+    const RegistrationStep& step = set.steps[trial.index];
+    const std::vector<PlacedScan> submap = submap_for(method, step);
+    return {.caption = trial.set + ", question " + std::to_string(trial.index + 1) + ": " +
+                       error_text(trial),
+            .svg = registration_svg({.sketch = &set.sketch,
+                                     .submap = submap,
+                                     .prior_sketch_from_robot = prior,
+                                     .registration = found ? &*found : nullptr,
+                                     .true_sketch_from_robot = step.sketch_from_robot,
+                                     .window = window_})};
+  }
+
+ private:
+  const std::vector<RegistrationTask>& tasks_;
+  Predictors predictors_;
+  LocalWindow window_;
+  std::map<std::string, RegistrationSet> sets_;
+};
 
 /// Runs the registration suite.
 class RegistrationAblation {
@@ -193,6 +228,7 @@ class RegistrationAblation {
       tasks_.push_back(
           recorded_task(options.sets[i], params_.registration, make_rng(options.seed, i)()));
     }
+    check_names();
     if (tasks_.empty() || methods_.empty()) {
       throw std::invalid_argument(
           "there is nothing to run: give --registration.plans above 0 or a --set, and a method");
@@ -224,6 +260,17 @@ class RegistrationAblation {
   ConfigNode parameters() const { return to_config(params_); }
 
  private:
+  /// Trials belong together by the name of their drive.
+  void check_names() const {
+    std::set<std::string> names;
+    for (const RegistrationTask& task : tasks_) {
+      if (!names.insert(task.set).second) {
+        throw std::invalid_argument("--set: there are two runs of the name " + task.set +
+                                    "; give DRAWING,LOG,REFERENCE.csv,NAME");
+      }
+    }
+  }
+
   std::vector<RegistrationTrial> run_one(const RegistrationTask& task) const {
     const RegistrationSet set = task.make();
     const Predictors predictors(methods_, params_.network);
@@ -253,47 +300,24 @@ class RegistrationAblation {
     const std::string protocol = main_protocol(params_.registration).name;
     std::vector<const RegistrationTrial*> ordered;
     for (const RegistrationTrial& trial : trials_) {
-      const bool is_swept = trial.kind.starts_with("tps x ");
-      if (!is_swept && trial.method == methods_.front().name && trial.protocol == protocol) {
+      if (!is_swept(trial.kind, trial.protocol) && trial.method == methods_.front().name &&
+          trial.protocol == protocol) {
         ordered.push_back(&trial);
       }
     }
     std::ranges::stable_sort(
         ordered, {}, [](const RegistrationTrial* trial) { return trial->error.position_m; });
     const std::size_t count = ordered.size();
+    ExampleMaker make_example(tasks_, methods_.front(), params_.network);
     for (std::size_t i = 0; i < std::min(kTypicalShown, count); ++i) {
-      page.typical.push_back(example(*ordered[count * (2 * i + 1) / (2 * kTypicalShown)]));
+      page.typical.push_back(make_example(*ordered[count * (2 * i + 1) / (2 * kTypicalShown)]));
     }
     std::set<std::string> shown;
     for (std::size_t i = count; i-- > 0 && shown.size() < kWorstShown;) {
       if (shown.insert(ordered[i]->set).second) {
-        page.worst.push_back(example(*ordered[i]));
+        page.worst.push_back(make_example(*ordered[i]));
       }
     }
-  }
-
-  RegistrationExample example(const RegistrationTrial& trial) const {
-    const auto task = std::ranges::find(tasks_, trial.set, &RegistrationTask::set);
-    const RegistrationSet set = task->make();
-    const Predictors predictors({methods_.front()}, params_.network);
-    const RegistrationStep& step = set.steps[trial.index];
-    const Sim2 prior = first_prior_of(*task, set, trial.index);
-    std::vector<PlacedScan> submap = step.submap();
-    if (predictors.uses().front().present_scan_only) {
-      submap.resize(1);
-    }
-    std::optional<Registration> found;
-    if (WarpPredictor* predictor = predictors.uses().front().predictor) {
-      found = predictor->predict(submap, set.drawing, {&prior, 1}).front();
-    }
-    return {.caption = trial.set + ", question " + std::to_string(trial.index + 1) + ": " +
-                       error_text(trial),
-            .svg = registration_svg({.sketch = &set.sketch,
-                                     .submap = submap,
-                                     .prior_sketch_from_robot = prior,
-                                     .registration = found ? &*found : nullptr,
-                                     .true_sketch_from_robot = step.sketch_from_robot,
-                                     .window = params_.network.window})};
   }
 
   const AblateOptions& options_;

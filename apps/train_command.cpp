@@ -151,15 +151,19 @@ class Training {
             .first_batch = first_batch};
   }
 
+  /// Whether the curve's last point before so many batches is late enough.
+  bool improves_priors(std::uint64_t batches) const {
+    const std::uint64_t every = batches_of(options_.validate_every);
+    const std::uint64_t last_point =
+        batches / every * every * static_cast<std::uint64_t>(params_.source.batch);
+    return kind_ == NetworkKind::Ours && last_point > 0 && last_point >= params_.improve_after;
+  }
+
   /// Priors are improved by the network of the curve's last point, so that going on from a
   /// checkpoint gives the same samples as never having stopped.
   std::unique_ptr<SampleSource> training_samples() const {
-    const std::uint64_t learned = trainer_.batches_learned();
-    const std::uint64_t every = batches_of(options_.validate_every);
-    const std::uint64_t last_point =
-        learned / every * every * static_cast<std::uint64_t>(params_.source.batch);
-    SampleSource::Stream from = stream(SampleSplit::Training, learned);
-    if (kind_ == NetworkKind::Ours && last_point > 0 && last_point >= params_.improve_after) {
+    SampleSource::Stream from = stream(SampleSplit::Training, trainer_.batches_learned());
+    if (improves_priors(trainer_.batches_learned())) {
       from.improving_network = read_bytes(options_.out / "network.onnx");
     }
     return std::make_unique<SampleSource>(params_.source, from, options_.workers);
@@ -194,13 +198,15 @@ class Training {
                                   " is not empty; give --resume to go on, or --force");
     }
     fs::create_directories(options_.out);
-    write_atomically(options_.out / "run.yaml",
-                     run_file_text({.command = "train",
-                                    .seed = options_.seed,
-                                    .inputs = {{"network", options_.network},
-                                               {"samples", std::to_string(options_.samples)},
-                                               {"threads", std::to_string(options_.threads)}},
-                                    .parameters = to_config(params_)}));
+    write_atomically(
+        options_.out / "run.yaml",
+        run_file_text({.command = "train",
+                       .seed = options_.seed,
+                       .inputs = {{"network", options_.network},
+                                  {"samples", std::to_string(options_.samples)},
+                                  {"validate-every", std::to_string(options_.validate_every)},
+                                  {"threads", std::to_string(options_.threads)}},
+                       .parameters = to_config(params_)}));
   }
 
   std::uint64_t samples_learned() const {
@@ -217,8 +223,12 @@ class Training {
     while (trainer_.batches_learned() < last) {
       loss_.add(trainer_.learn(source->next()));
       const std::uint64_t done = trainer_.batches_learned();
-      if (done % every == 0 || done == last) {
+      if (done % every == 0 || done == total_batches_) {
         record();
+      } else if (done == last) {
+        save();  // no point of the curve: its network goes on improving priors
+      }
+      if (done % every == 0 && done < last && improves_priors(done)) {
         source = training_samples();
       }
       progress.update(done);

@@ -52,15 +52,10 @@ std::string table(const std::vector<std::string>& heads,
   return html + "</tbody></table></div>";
 }
 
-bool is_swept(const RegistrationRow& row) {
-  return row.protocol.starts_with("shift ") || row.protocol.starts_with("turn ") ||
-         row.kind.starts_with("tps x ");
-}
-
 std::string main_table(const RegistrationPage& page) {
   std::vector<std::vector<std::string>> lines;
   for (const RegistrationRow& row : page.rows) {
-    if (!is_swept(row)) {
+    if (!is_swept(row.kind, row.protocol)) {
       lines.push_back(
           {row.kind, row.method, row.protocol, std::to_string(row.trials),
            fixed(100.0 * row.prior_m.median, 0), mean_text(row.mean_position_m, 100.0, 1),
@@ -87,8 +82,7 @@ std::string main_table(const RegistrationPage& page) {
 std::string difference_table(const RegistrationPage& page) {
   std::vector<std::vector<std::string>> lines;
   for (const RegistrationDifference& difference : page.differences) {
-    if (difference.protocol.starts_with("shift ") || difference.protocol.starts_with("turn ") ||
-        difference.kind.starts_with("tps x ")) {
+    if (is_swept(difference.kind, difference.protocol)) {
       continue;
     }
     lines.push_back({difference.kind, difference.method + " minus " + difference.other,
@@ -201,7 +195,7 @@ std::string calibration(const RegistrationPage& page) {
   std::vector<std::vector<std::string>> lines;
   std::string charts;
   for (const RegistrationRow& row : page.rows) {
-    if (!row.coverage || is_swept(row)) {
+    if (!row.coverage || is_swept(row.kind, row.protocol)) {
       continue;
     }
     const auto share = [](double value) { return fixed(100.0 * value, 0); };

@@ -19,6 +19,10 @@ constexpr double kSweepTurn_deg = 10.0;          ///< beside a swept shift
 constexpr double kSweepShift_m = 0.5;            ///< beside a swept turn
 constexpr int kAttempts = 20;
 
+const std::string kShiftPrefix = "shift ";
+const std::string kTurnPrefix = "turn ";
+const std::string kBendPrefix = "tps x ";
+
 /// Homes, offices and warehouses in turn; every other robot sees all around.
 struct PlanChoice {
   BuildingKind kind;
@@ -102,12 +106,17 @@ void validate(const RegistrationSuiteParams& params) {
 }
 
 std::string shift_protocol(double shift_m) {
-  return "shift " + detail::short_number(shift_m) + " m";
+  return kShiftPrefix + detail::short_number(shift_m) + " m";
 }
 std::string turn_protocol(double turn_deg) {
-  return "turn " + detail::short_number(turn_deg) + " deg";
+  return kTurnPrefix + detail::short_number(turn_deg) + " deg";
 }
-std::string bend_kind(double strength) { return "tps x " + detail::short_number(strength); }
+std::string bend_kind(double strength) { return kBendPrefix + detail::short_number(strength); }
+
+bool is_swept(const std::string& kind, const std::string& protocol) {
+  return protocol.starts_with(kShiftPrefix) || protocol.starts_with(kTurnPrefix) ||
+         kind.starts_with(kBendPrefix);
+}
 
 PriorProtocol main_protocol(const RegistrationSuiteParams& params) {
   return {.name = "within " + detail::short_number(params.prior_shift_m) + " m " +

@@ -60,6 +60,9 @@ inline constexpr double kSweptTurns_deg[] = {0.0, 10.0, 20.0, 30.0, 45.0};
 inline constexpr double kSweptBends[] = {0.0, 0.5, 1.0, 1.5, 2.0};  ///< times that of tps_person()
 std::string bend_kind(double strength);
 
+/// Whether a row is a point of a sweep rather than a result of its own.
+bool is_swept(const std::string& kind, const std::string& protocol);
+
 /// The protocol of params.prior_*.
 PriorProtocol main_protocol(const RegistrationSuiteParams& params);
 

@@ -19,20 +19,12 @@ struct Answer {
   double milliseconds = 0.0;
 };
 
-Answer ask(const RegistrationSet& set, const RegistrationStep& step,
-           const RegistrationMethodUse& method, const Sim2& prior) {
-  Answer answer;
-  if (method.predictor == nullptr) {
-    return answer;
-  }
-  std::vector<PlacedScan> submap = step.submap();
-  if (method.present_scan_only) {
-    submap.resize(1);
-  }
+Answer timed_answer(const RegistrationSet& set, std::size_t index,
+                    const RegistrationMethodUse& method, const Sim2& prior) {
   const Clock::time_point begin = Clock::now();
-  answer.registration = method.predictor->predict(submap, set.drawing, {&prior, 1}).front();
-  answer.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  return answer;
+  std::optional<Registration> registration = ask(set, index, method, prior);
+  return {.registration = std::move(registration),
+          .milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count()};
 }
 
 /// The error e of truth = estimate * e against its stated covariance.
@@ -94,6 +86,25 @@ Sim2 prior_around(const Sim2& sketch_from_robot, const PriorSpread& spread, Rng&
                                                      std::exp(log_scale));
 }
 
+std::vector<PlacedScan> submap_for(const RegistrationMethodUse& method,
+                                   const RegistrationStep& step) {
+  std::vector<PlacedScan> submap = step.submap();
+  if (method.present_scan_only) {
+    submap.resize(1);
+  }
+  return submap;
+}
+
+std::optional<Registration> ask(const RegistrationSet& set, std::size_t index,
+                                const RegistrationMethodUse& method,
+                                const Sim2& prior_sketch_from_robot) {
+  if (method.predictor == nullptr) {
+    return std::nullopt;
+  }
+  const std::vector<PlacedScan> submap = submap_for(method, set.steps.at(index));
+  return method.predictor->predict(submap, set.drawing, {&prior_sketch_from_robot, 1}).front();
+}
+
 std::vector<RegistrationTrial> run_chained(const RegistrationSet& set,
                                            const RegistrationMethodUse& method) {
   std::vector<RegistrationTrial> trials;
@@ -103,7 +114,7 @@ std::vector<RegistrationTrial> run_chained(const RegistrationSet& set,
     const Sim2 prior =
         last ? *last * (set.steps[i - 1].odom_from_robot.inverse() * step.odom_from_robot)
              : step.sketch_from_robot;
-    const Answer answer = ask(set, step, method, prior);
+    const Answer answer = timed_answer(set, i, method, prior);
     trials.push_back(judge(set, i, method, "chained", prior, answer));
     last = answer.registration ? answer.registration->sketch_from_robot : prior;
   }
@@ -118,7 +129,7 @@ std::vector<RegistrationTrial> run_around_truth(const RegistrationSet& set,
   for (std::size_t i = 0; i < set.steps.size(); ++i) {
     Rng rng = make_rng(seed, i);
     const Sim2 prior = prior_around(set.steps[i].sketch_from_robot, spread, rng);
-    trials.push_back(judge(set, i, method, protocol, prior, ask(set, set.steps[i], method, prior)));
+    trials.push_back(judge(set, i, method, protocol, prior, timed_answer(set, i, method, prior)));
   }
   return trials;
 }

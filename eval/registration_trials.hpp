@@ -34,6 +34,15 @@ struct RegistrationMethodUse {
   bool present_scan_only = false;
 };
 
+/// The scans of a step that a method looks at.
+std::vector<PlacedScan> submap_for(const RegistrationMethodUse& method,
+                                   const RegistrationStep& step);
+
+/// What a method says to steps[index] of a set from a prior; none where it says nothing.
+std::optional<Registration> ask(const RegistrationSet& set, std::size_t index,
+                                const RegistrationMethodUse& method,
+                                const Sim2& prior_sketch_from_robot);
+
 /// What a method said to one question.
 struct RegistrationTrial {
   std::string set;

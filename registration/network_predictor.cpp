@@ -173,14 +173,6 @@ class NetworkPredictor final : public WarpPredictor {
 
 }  // namespace
 
-std::span<const std::pair<std::string_view, PredictorKind>> names_of(PredictorKind) {
-  static constexpr std::pair<std::string_view, PredictorKind> kNames[] = {
-      {"chen20", PredictorKind::Chen20},
-      {"affine", PredictorKind::Affine},
-      {"ours", PredictorKind::Ours}};
-  return kNames;
-}
-
 void validate(const NetworkPredictorParams& params) {
   validate_part("window", params.window);
   require_in_range("iterations", params.iterations, 1, 10);

@@ -3,8 +3,6 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <string_view>
-#include <utility>
 
 #include "registration/local_window.hpp"
 #include "registration/warp_predictor.hpp"
@@ -14,7 +12,6 @@ namespace sketchloc {
 /// The networks that `sketchloc train` makes: `Chen20` as published, `Affine` its sister without
 /// bending, `Ours`.
 enum class PredictorKind { Chen20, Affine, Ours };
-std::span<const std::pair<std::string_view, PredictorKind>> names_of(PredictorKind);
 
 struct NetworkPredictorParams {
   LocalWindow window;  ///< the one that the network was trained with

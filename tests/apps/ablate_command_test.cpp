@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -22,14 +21,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::CommandResult;
+using testing::content_of;
 using ::testing::HasSubstr;
 using testing::TemporaryDirectory;
-
-std::string content_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 /// One building, one drawing, no sweeps; `ours` says that every prior is right.
 class AblateCommandEndToEnd : public ::testing::Test {
@@ -113,6 +107,7 @@ TEST_F(AblateCommandEndToEnd, SaysWhatIsWrongWithItsInputs) {
   refuses({"--registration.plans", "0"}, "nothing to run");
   refuses({"--registration.plans", "0", "--set", "a.png,b.log"}, "DRAWING,LOG,REFERENCE.csv");
   refuses({"--registration.plans", "0", "--set", in("no.png") + ",b.log,c.csv"}, "no.png");
+  refuses({"--set", "a.png,b.log,c.csv", "--set", "a.png,b.log,d.csv"}, "two runs of the name a");
   refuses({"--network", "ours=" + in("none.onnx")}, "none.onnx");
   refuses({"--network", in("ours.onnx")}, "METHOD=FILE");
   refuses({"--suite", "cooking"}, "registration");

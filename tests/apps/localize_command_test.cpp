@@ -22,14 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::CommandResult;
+using testing::content_of;
 using ::testing::HasSubstr;
 using testing::TemporaryDirectory;
-
-std::string content_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 void write_pgm(const fs::path& file, const Sketch& sketch) {
   std::ofstream out(file, std::ios::binary);

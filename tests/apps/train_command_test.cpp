@@ -1,9 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -14,12 +11,8 @@ namespace sketchloc {
 namespace {
 
 using testing::CommandResult;
+using testing::content_of;
 using ::testing::HasSubstr;
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 class TrainEndToEnd : public ::testing::Test {
  protected:
@@ -46,9 +39,20 @@ TEST_F(TrainEndToEnd, GoesOnAsIfItHadNeverStopped) {
   const CommandResult rest = train("parts", {"--resume"});
   EXPECT_EQ(rest.exit_code, 0) << rest.err;
   EXPECT_THAT(rest.err, HasSubstr("go on after 32 samples"));
-  EXPECT_EQ(bytes_of(folder_ / "whole/network.onnx"), bytes_of(folder_ / "parts/network.onnx"));
-  EXPECT_FALSE(bytes_of(folder_ / "whole/network.onnx").empty());
-  EXPECT_THAT(bytes_of(folder_ / "whole/run.yaml"), HasSubstr("learning_rate"));
+  EXPECT_EQ(content_of(folder_ / "whole/network.onnx"), content_of(folder_ / "parts/network.onnx"));
+  EXPECT_FALSE(content_of(folder_ / "whole/network.onnx").empty());
+  EXPECT_THAT(content_of(folder_ / "whole/run.yaml"), HasSubstr("learning_rate"));
+}
+
+TEST_F(TrainEndToEnd, GoesOnAlikeWhileItImprovesItsPriors) {
+  const std::string early = "--improve_after=16";
+  ASSERT_EQ(train("whole", {early}).exit_code, 0);
+  ASSERT_EQ(train("plain").exit_code, 0);
+  EXPECT_EQ(train("parts", {early, "--stop-after=40"}).exit_code, 0);  // between two points
+  EXPECT_EQ(train("parts", {early, "--resume"}).exit_code, 0);
+  const std::string whole = content_of(folder_ / "whole/network.onnx");
+  EXPECT_EQ(whole, content_of(folder_ / "parts/network.onnx"));
+  EXPECT_NE(whole, content_of(folder_ / "plain/network.onnx"));
 }
 
 TEST_F(TrainEndToEnd, NeverOverwritesWithoutBeingAsked) {

@@ -13,17 +13,17 @@
 namespace sketchloc::testing {
 namespace {
 
-std::string content_of(const std::filesystem::path& file) {
-  std::ostringstream content;
-  content << std::ifstream(file).rdbuf();
-  return content.str();
-}
-
 void redirect(const char* file, int flags, int descriptor) {
   ::dup2(::open(file, flags, 0600), descriptor);
 }
 
 }  // namespace
+
+std::string content_of(const std::filesystem::path& file) {
+  std::ostringstream content;
+  content << std::ifstream(file, std::ios::binary).rdbuf();
+  return content.str();
+}
 
 CommandResult run_command(const std::vector<std::string>& command) {
   const TemporaryDirectory folder;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@ struct CommandResult {
   std::string out;
   std::string err;
 };
+
+/// The bytes of a file; none where it is not there.
+std::string content_of(const std::filesystem::path& file);
 
 /// Runs a program with arguments, without a shell and without stdin, and waits for it.
 CommandResult run_command(const std::vector<std::string>& command);
