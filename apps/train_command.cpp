@@ -74,9 +74,8 @@ std::string read_bytes(const fs::path& file) {
   return bytes.str();
 }
 
-TrainParams parameters_of(const TrainOptions& options, NetworkKind kind) {
-  const auto params = parameters_from<TrainParams>(options.parameters,
-                                                   {.source = {}, .trainer = trainer_params(kind)});
+TrainParams parameters_of(const TrainOptions& options) {
+  const auto params = parameters_from<TrainParams>(options.parameters);
   if (params.source.sample.cells % 32 != 0) {
     throw std::invalid_argument("source.sample.cells must be a multiple of 32, is " +
                                 std::to_string(params.source.sample.cells));
@@ -117,7 +116,7 @@ class Training {
   explicit Training(const TrainOptions& options)
       : options_(options),
         kind_(kNetworkKinds.at(options.network)),
-        params_(parameters_of(options, kind_)),
+        params_(parameters_of(options)),
         total_batches_(batches_of(options.samples)),
         trainer_({.kind = kind_,
                   .window = params_.source.sample.window(),

@@ -19,11 +19,13 @@ const std::vector<Eigen::Vector2d>& unit_controls() {
 
 }  // namespace
 
-Sim2 pose_of_residual(std::span<const float> output, const Sim2& prior_sketch_from_robot) {
+Sim2 pose_of_residual(std::span<const float> output, const Sim2& prior_sketch_from_robot,
+                      const LocalWindow& window) {
   check(output.size() == ResidualOutput::kSize, "output of a residual network");
   const std::span<const float> pose = output.subspan(ResidualOutput::kPose, 4);
-  return prior_sketch_from_robot *
-         Sim2::from_xy_yaw_scale(pose[0], pose[1], pose[2], std::exp(static_cast<double>(pose[3])));
+  return prior_sketch_from_robot * Sim2::from_xy_yaw_scale(unit_m(window) * pose[0],
+                                                           unit_m(window) * pose[1], pose[2],
+                                                           std::exp(static_cast<double>(pose[3])));
 }
 
 Eigen::Matrix4d whitening_of_residual(std::span<const float> output) {
@@ -63,21 +65,21 @@ Warp warp_of_residual(std::span<const float> output, const Sim2& prior_sketch_fr
   for (std::size_t i = 0; i < controls.size(); ++i) {
     const std::size_t at = ResidualOutput::kControlShift + 2 * i;
     places.push_back(prior_sketch_from_robot *
-                     (controls[i] + Eigen::Vector2d(output[at], output[at + 1])));
+                     (controls[i] + unit_m(window) * Eigen::Vector2d(output[at], output[at + 1])));
   }
   return *Warp::from_robot_points(controls, places);  // a lattice defines a spline
 }
 
-Eigen::Matrix4d covariance_of_residual(std::span<const float> output) {
+Eigen::Matrix4d covariance_of_residual(std::span<const float> output, const LocalWindow& window) {
   const Eigen::Matrix4d whitening = whitening_of_residual(output);
   const Eigen::Matrix4d root =
       whitening.triangularView<Eigen::Lower>().solve(Eigen::Matrix4d(Eigen::Matrix4d::Identity()));
-  // From the frame of the prior, in its metres, to the robot's own.
+  // From the frame of the prior, in its units, to the robot's own, in metres.
   const double yaw_rad = output[ResidualOutput::kPose + 2];
   const double scale = std::exp(static_cast<double>(output[ResidualOutput::kPose + 3]));
   Eigen::Matrix4d robot_from_prior = Eigen::Matrix4d::Identity();
   robot_from_prior.topLeftCorner<2, 2>() =
-      Sim2::from_xy_yaw_scale(0.0, 0.0, -yaw_rad, 1.0 / scale).scaled_rotation_matrix();
+      Sim2::from_xy_yaw_scale(0.0, 0.0, -yaw_rad, unit_m(window) / scale).scaled_rotation_matrix();
   const Eigen::Matrix4d mapped = robot_from_prior * root;
   return mapped * mapped.transpose();
 }

@@ -13,10 +13,11 @@
 namespace sketchloc {
 
 /// Numbers that a residual network gives, in this order. Frame of the prior: the robot frame as the
-/// prior believes it to lie in the drawing, in metres by the prior's scale.
+/// prior believes it to lie in the drawing. Lengths are in units of unit_m(window) by the prior's
+/// scale, so that one network can look through windows of any size.
 struct ResidualOutput {
   static constexpr int kControlShift = 0;  ///< x, y of 16 control points: their place minus them
-  static constexpr int kPose = 2 * kControls;   ///< x m, y m, heading rad, log scale
+  static constexpr int kPose = 2 * kControls;   ///< x, y, heading rad, log scale
   static constexpr int kWhitening = kPose + 4;  ///< see whitening
   static constexpr int kInlierLogit = kWhitening + 10;
   static constexpr int kSize = kInlierLogit + 1;
@@ -25,6 +26,9 @@ struct ResidualOutput {
   static constexpr double kMaxLogPrecision = 6.0;
   static constexpr double kMinLogPrecision = -3.0;
 };
+
+/// The pitch of the features that a residual network matches: four cells of its input.
+constexpr double unit_m(const LocalWindow& window) { return 4.0 * window.side_m / window.cells; }
 
 /// Numbers that the published network gives, and its affine sister: for a 4x4 grid over the crop
 /// the sources in the scan image, x, y, ... in [-1, 1] [Chen20]; or the six of source = A target +
@@ -35,10 +39,11 @@ struct PublishedOutput {
 };
 
 /// The pose that a residual network means.
-Sim2 pose_of_residual(std::span<const float> output, const Sim2& prior_sketch_from_robot);
+Sim2 pose_of_residual(std::span<const float> output, const Sim2& prior_sketch_from_robot,
+                      const LocalWindow& window);
 
-/// Lower triangular W with covariance (W^T W)^-1 of (x m, y m, heading, log scale) in the frame of
-/// the prior. Ten numbers: the logarithms of the diagonal, then the rest row by row.
+/// Lower triangular W with covariance (W^T W)^-1 of (x, y, heading, log scale) in the frame of the
+/// prior, lengths in units. Ten numbers: the logarithms of the diagonal, then the rest row by row.
 Eigen::Matrix4d whitening_of_residual(std::span<const float> output);
 
 /// The 32 sources that the affine numbers mean.
@@ -50,7 +55,7 @@ Warp warp_of_residual(std::span<const float> output, const Sim2& prior_sketch_fr
 
 /// Covariance of the error e in truth = pose * e, as of Registration, that a residual network
 /// means.
-Eigen::Matrix4d covariance_of_residual(std::span<const float> output);
+Eigen::Matrix4d covariance_of_residual(std::span<const float> output, const LocalWindow& window);
 
 /// That the pose is within 0.5 m and 15 deg, in (0, 1).
 double inlier_probability_of_residual(std::span<const float> output);

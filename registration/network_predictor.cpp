@@ -103,11 +103,11 @@ class NetworkPredictor final : public WarpPredictor {
 
   /// One row of outputs for each prior.
   std::vector<std::vector<float>> look(std::span<const PlacedScan> submap,
-                                       const SketchCropper& drawing, std::span<const Sim2> priors) {
+                                       const SketchCropper& drawing, std::span<const Sim2> priors,
+                                       const LocalWindow& window) {
     std::vector<float> input;
     for (const Sim2& prior : priors) {
-      const std::vector<float> planes =
-          network_input(input_kind(), submap, drawing, prior, params_.window);
+      const std::vector<float> planes = network_input(input_kind(), submap, drawing, prior, window);
       input.insert(input.end(), planes.begin(), planes.end());
     }
     const cv::Mat output = forward(input, priors.size());
@@ -128,13 +128,16 @@ class NetworkPredictor final : public WarpPredictor {
       return results;
     }
     std::vector<Sim2> from(priors.begin(), priors.end());
-    for (int iteration = 0; iteration < params_.iterations; ++iteration) {
-      const std::vector<std::vector<float>> outputs = look(submap, drawing, from);
+    LocalWindow window = params_.window;
+    for (int taken = 0; taken < params_.looks; ++taken) {
+      window.side_m = taken == 0 ? params_.window.side_m : params_.fine_side_m;
+      const std::vector<std::vector<float>> outputs = look(submap, drawing, from, window);
       for (std::size_t i = 0; i < from.size(); ++i) {
-        const Sim2 pose = pose_of_residual(outputs[i], from[i]);
-        results[i] = Registration{.warp = warp_of_residual(outputs[i], from[i], params_.window),
+        const Sim2 pose = pose_of_residual(outputs[i], from[i], window);
+        results[i] = Registration{.warp = warp_of_residual(outputs[i], from[i], window),
+                                  .window = window,
                                   .sketch_from_robot = pose,
-                                  .covariance = covariance_of_residual(outputs[i]),
+                                  .covariance = covariance_of_residual(outputs[i], window),
                                   .inlier_probability = inlier_probability_of_residual(outputs[i])};
         from[i] = pose;
       }
@@ -149,7 +152,7 @@ class NetworkPredictor final : public WarpPredictor {
     if (priors.empty()) {
       return results;
     }
-    const std::vector<std::vector<float>> outputs = look(submap, drawing, priors);
+    const std::vector<std::vector<float>> outputs = look(submap, drawing, priors, params_.window);
     for (std::size_t i = 0; i < priors.size(); ++i) {
       std::vector<float> sources = outputs[i];
       if (kind_ == PredictorKind::Affine) {
@@ -159,6 +162,7 @@ class NetworkPredictor final : public WarpPredictor {
       const Eigen::Vector2d& centre = priors[i].translation();
       if (const auto pose = pose_of_published(sources, centre, params_.window)) {
         results[i] = Registration{.warp = warp_of_published(sources, centre, params_.window),
+                                  .window = params_.window,
                                   .sketch_from_robot = *pose,
                                   .covariance = std::nullopt};
       }
@@ -175,7 +179,8 @@ class NetworkPredictor final : public WarpPredictor {
 
 void validate(const NetworkPredictorParams& params) {
   validate_part("window", params.window);
-  require_in_range("iterations", params.iterations, 1, 10);
+  require_in_range("looks", params.looks, 1, 10);
+  require_above("fine_side_m", params.fine_side_m, 0.0);
 }
 
 void run_networks_on_one_thread() { cv::setNumThreads(1); }

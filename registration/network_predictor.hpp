@@ -14,14 +14,16 @@ namespace sketchloc {
 enum class PredictorKind { Chen20, Affine, Ours };
 
 struct NetworkPredictorParams {
-  LocalWindow window;  ///< the one that the network was trained with
-  int iterations = 2;  ///< ours: how often it looks again from its own result, >= 1
+  LocalWindow window;         ///< of the first look: the one that the network was trained with
+  int looks = 2;              ///< ours: how often it looks, from its own last result, >= 1
+  double fine_side_m = 10.0;  ///< ours: side of the window of all looks but the first, > 0
 };
 
 template <typename Visitor>
 void visit_fields(NetworkPredictorParams& params, Visitor&& visit) {
   visit("window", params.window);
-  visit("iterations", params.iterations);
+  visit("looks", params.looks);
+  visit("fine_side_m", params.fine_side_m);
 }
 
 /// Throws std::invalid_argument naming the field, its range and its value.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "motion/sim2.hpp"
+#include "registration/local_window.hpp"
 #include "registration/scan_raster.hpp"
 #include "registration/sketch_crop.hpp"
 #include "registration/warp.hpp"
@@ -15,6 +16,7 @@ namespace sketchloc {
 /// How what a robot sees lies in a drawing, as somebody who looked at both says.
 struct Registration {
   Warp warp;
+  LocalWindow window{};    ///< whose contents the warp is made of; beyond it the warp guesses
   Sim2 sketch_from_robot;  ///< the robot's pose
   /// Of the pose's error e in truth = sketch_from_robot * e: (x m, y m, heading rad, log scale) of
   /// e. None where the predictor does not know.

@@ -10,9 +10,9 @@ namespace {
 
 using torch::indexing::Slice;
 
-constexpr double kGridKnee_m = 0.25;  ///< errors below count squared, above by their length
-constexpr double kPoseKnee_m = 0.1;
-constexpr double kLever_m = 2.0;  ///< a radian and a unit of log scale count as so many metres
+constexpr double kGridKnee = 0.25;  ///< units; errors below count squared, above by their length
+constexpr double kPoseKnee = 0.1;
+constexpr double kLever = 2.0;  ///< a radian and a unit of log scale count as so many units
 constexpr double kInlier_m = 0.5;
 constexpr double kInlier_rad = 0.26;
 
@@ -30,7 +30,7 @@ torch::Tensor grid_loss(const torch::Tensor& output, const ResidualTruth& truth,
   const torch::Tensor controls =
       columns(output, ResidualOutput::kControlShift, 2 * kControls).reshape({-1, kControls, 2});
   const torch::Tensor error = torch::matmul(spline, controls) - truth.grid_shift;
-  const torch::Tensor weighted = truth.grid_weight * robust(error.square().sum(2), kGridKnee_m);
+  const torch::Tensor weighted = truth.grid_weight * robust(error.square().sum(2), kGridKnee);
   return weighted.sum() / truth.grid_weight.sum().clamp_min(1.0);
 }
 
@@ -55,10 +55,11 @@ torch::Tensor spread_loss(const torch::Tensor& output, const torch::Tensor& erro
   return (0.5 * squared - log_diagonal.sum(1)).mean();
 }
 
-torch::Tensor inlier_loss(const torch::Tensor& output, const torch::Tensor& error) {
-  const torch::Tensor right =
-      torch::logical_and(columns(error, 0, 2).square().sum(1) < kInlier_m * kInlier_m,
-                         error.select(1, 2).abs() < kInlier_rad);
+torch::Tensor inlier_loss(const torch::Tensor& output, const torch::Tensor& error,
+                          const torch::Tensor& unit_m) {
+  const torch::Tensor right = torch::logical_and(
+      columns(error, 0, 2).square().sum(1) * unit_m.square() < kInlier_m * kInlier_m,
+      error.select(1, 2).abs() < kInlier_rad);
   return torch::binary_cross_entropy_with_logits(output.select(1, ResidualOutput::kInlierLogit),
                                                  right.to(torch::kFloat32));
 }
@@ -69,12 +70,12 @@ ResidualLoss residual_loss(const torch::Tensor& output, const ResidualTruth& tru
                            const torch::Tensor& spline) {
   const torch::Tensor error = truth.pose - columns(output, ResidualOutput::kPose, 4);
   const torch::Tensor settled = error.detach();
-  const torch::Tensor position = robust(columns(error, 0, 2).square().sum(1), kPoseKnee_m);
-  const torch::Tensor rest = robust((kLever_m * columns(error, 2, 2)).square(), kPoseKnee_m).sum(1);
+  const torch::Tensor position = robust(columns(error, 0, 2).square().sum(1), kPoseKnee);
+  const torch::Tensor rest = robust((kLever * columns(error, 2, 2)).square(), kPoseKnee).sum(1);
   return {.grid = grid_loss(output, truth, spline),
           .pose = (position + rest).mean(),
           .spread = spread_loss(output, settled),
-          .inlier = inlier_loss(output, settled)};
+          .inlier = inlier_loss(output, settled, truth.unit_m)};
 }
 
 torch::Tensor published_loss(const torch::Tensor& sources, const torch::Tensor& true_sources) {

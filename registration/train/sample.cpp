@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "motion/validate.hpp"
+#include "registration/network_output.hpp"
 
 namespace sketchloc {
 namespace {
@@ -52,15 +53,11 @@ Submap draw_driven_submap(const Scene& scene, const SampleParams& params, Rng& r
 }
 
 /// A prior from which a network has looked once or twice.
-Sim2 improved(Sim2 prior, const std::vector<PlacedScan>& scans, const SketchCropper& sketch,
-              WarpPredictor& network, Rng& rng) {
-  const std::size_t times = 1 + draw_index(2, rng);
-  for (std::size_t i = 0; i < times; ++i) {
-    if (const auto found = network.predict(scans, sketch, {&prior, 1}).front()) {
-      prior = found->sketch_from_robot;
-    }
-  }
-  return prior;
+Sim2 improved(const Sim2& prior, const std::vector<PlacedScan>& scans, const SketchCropper& sketch,
+              const ImprovingNetworks& networks, Rng& rng) {
+  WarpPredictor& network = draw_index(2, rng) == 0 ? *networks.once : *networks.twice;
+  const auto found = network.predict(scans, sketch, {&prior, 1}).front();
+  return found ? found->sketch_from_robot : prior;
 }
 
 template <std::size_t kSize>
@@ -69,18 +66,18 @@ void set_point(std::array<float, kSize>& values, std::size_t index, const Eigen:
   values[2 * index + 1] = static_cast<float>(point.y());
 }
 
-void label_warp(Sample& sample, const Scene& scene, const Se2& world_from_robot,
-                const LocalWindow& window) {
+void label_warp(Sample& sample, const Scene& scene, const Se2& world_from_robot) {
   const Sim2 prior_from_sketch = sample.prior_sketch_from_robot.inverse();
+  const double unit = unit_m(sample.window);
   const auto shift = [&](const Eigen::Vector2d& point_in_robot) -> Eigen::Vector2d {
     const Eigen::Vector2d drawn = scene.sketch_from_world()(world_from_robot * point_in_robot);
-    return prior_from_sketch * drawn - point_in_robot;
+    return (prior_from_sketch * drawn - point_in_robot) / unit;
   };
-  const std::vector<Eigen::Vector2d> controls = control_points_in_robot(window);
+  const std::vector<Eigen::Vector2d> controls = control_points_in_robot(sample.window);
   for (std::size_t i = 0; i < controls.size(); ++i) {
     set_point(sample.control_shift, i, shift(controls[i]));
   }
-  const std::vector<Eigen::Vector2d> grid = grid_points_in_robot(window);
+  const std::vector<Eigen::Vector2d> grid = grid_points_in_robot(sample.window);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     if (scene.indoors(world_from_robot * grid[i])) {
       set_point(sample.grid_shift, i, shift(grid[i]));
@@ -89,18 +86,27 @@ void label_warp(Sample& sample, const Scene& scene, const Se2& world_from_robot,
   }
 }
 
+void label_pose(Sample& sample) {
+  const Sim2 prior_from_robot = sample.prior_sketch_from_robot.inverse() * sample.sketch_from_robot;
+  const double unit = unit_m(sample.window);
+  sample.pose = {static_cast<float>(prior_from_robot.x() / unit),
+                 static_cast<float>(prior_from_robot.y() / unit),
+                 static_cast<float>(prior_from_robot.yaw_rad()),
+                 static_cast<float>(std::log(prior_from_robot.scale()))};
+}
+
 /// Backwards, as [Chen20] has it: the crop's points in the world, seen from the robot.
-void label_published_warp(Sample& sample, const Scene& scene, const Se2& world_from_robot,
-                          const LocalWindow& window) {
+void label_published_warp(Sample& sample, const Scene& scene, const Se2& world_from_robot) {
   const Eigen::Vector2d centre_in_sketch = sample.prior_sketch_from_robot.translation();
   const std::vector<Eigen::Vector2d> targets =
-      square_lattice(kControlsPerSide, published_crop_side_px(window), centre_in_sketch);
+      square_lattice(kControlsPerSide, published_crop_side_px(sample.window), centre_in_sketch);
   const Se2 robot_from_world = world_from_robot.inverse();
   const Sim2 robot_from_sketch = sample.sketch_from_robot.inverse();
   for (std::size_t i = 0; i < targets.size(); ++i) {
     const Eigen::Vector2d guess = world_from_robot * (robot_from_sketch * targets[i]);
     const Eigen::Vector2d drawn_here = scene.sketch_from_world().inverse(targets[i], guess).point;
-    set_point(sample.published_source, i, 2.0 / window.side_m * (robot_from_world * drawn_here));
+    set_point(sample.published_source, i,
+              2.0 / sample.window.side_m * (robot_from_world * drawn_here));
   }
 }
 
@@ -118,6 +124,8 @@ void validate(const PriorError& error) {
 void validate(const SampleParams& params) {
   require_at_least("cells", params.cells, 16.0);
   validate(params.window());
+  require_above("min_fine_side_m", params.min_fine_side_m, 0.0);
+  require_at_least("max_fine_side_m", params.max_fine_side_m, params.min_fine_side_m);
   require_in_range("alone_share", params.alone_share, 0.0, 1.0);
   require_at_least("max_scans", params.max_scans, 1.0);
   require_at_least("scan_spacing_m", params.scan_spacing_m, 0.0);
@@ -134,12 +142,6 @@ std::vector<Eigen::Vector2d> grid_points_in_robot(const LocalWindow& window) {
   return square_lattice(kGridPerSide, side_m, window.centre_in_robot());
 }
 
-Eigen::Vector4d pose_in_prior(const Sim2& sketch_from_robot, const Sim2& prior_sketch_from_robot) {
-  const Sim2 prior_from_robot = prior_sketch_from_robot.inverse() * sketch_from_robot;
-  return {prior_from_robot.x(), prior_from_robot.y(), prior_from_robot.yaw_rad(),
-          std::log(prior_from_robot.scale())};
-}
-
 Sim2 draw_prior(const Sim2& sketch_from_robot, const PriorError& error, Rng& rng) {
   const bool full = uniform(rng) < error.full_share;
   const double size = full ? 1.0 : std::pow(error.least_size, uniform(rng));
@@ -153,29 +155,27 @@ Sim2 draw_prior(const Sim2& sketch_from_robot, const PriorError& error, Rng& rng
 }
 
 Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng,
-                   WarpPredictor* network) {
+                   const ImprovingNetworks& networks) {
   const Submap submap = uniform(rng) < params.alone_share ? draw_lone_scan(scene, rng)
                                                           : draw_driven_submap(scene, params, rng);
   Sample sample;
   sample.sketch_from_robot =
       scene.sketch_from_world().exact().sketch_from_robot(submap.world_from_robot);
   sample.prior_sketch_from_robot = draw_prior(sample.sketch_from_robot, params.prior, rng);
-  if (network != nullptr && uniform(rng) < params.prior.improved_share) {
+  sample.window = params.window();
+  if (networks.once != nullptr && uniform(rng) < params.prior.improved_share) {
     sample.prior_sketch_from_robot =
-        improved(sample.prior_sketch_from_robot, submap.scans, scene.sketch(), *network, rng);
+        improved(sample.prior_sketch_from_robot, submap.scans, scene.sketch(), networks, rng);
+    sample.window.side_m = params.min_fine_side_m *
+                           std::pow(params.max_fine_side_m / params.min_fine_side_m, uniform(rng));
   }
-  const LocalWindow window = params.window();
-  sample.input =
-      network_input(kind, submap.scans, scene.sketch(), sample.prior_sketch_from_robot, window);
-  const Eigen::Vector4d pose =
-      pose_in_prior(sample.sketch_from_robot, sample.prior_sketch_from_robot);
-  for (std::size_t i = 0; i < sample.pose.size(); ++i) {
-    sample.pose[i] = static_cast<float>(pose(static_cast<Eigen::Index>(i)));
-  }
+  sample.input = network_input(kind, submap.scans, scene.sketch(), sample.prior_sketch_from_robot,
+                               sample.window);
+  label_pose(sample);
   if (kind == InputKind::Published) {
-    label_published_warp(sample, scene, submap.world_from_robot, window);
+    label_published_warp(sample, scene, submap.world_from_robot);
   } else {
-    label_warp(sample, scene, submap.world_from_robot, window);
+    label_warp(sample, scene, submap.world_from_robot);
   }
   return sample;
 }

@@ -22,8 +22,8 @@ struct PriorError {
   double full_share = 0.5;        ///< of the priors whose error has full size, in [0, 1]
   double least_size = 0.05;       ///< the others' size, log-uniform from this to 1, in (0, 1]
   /// Of the priors that a network which learns already has improved, once or twice: the errors
-  /// that it starts from when it looks again. In [0, 1].
-  double improved_share = 0.35;
+  /// that it starts from when it looks again, through a finer window. In [0, 1].
+  double improved_share = 0.5;
 };
 
 template <typename Visitor>
@@ -38,12 +38,14 @@ void visit_fields(PriorError& error, Visitor&& visit) {
 
 /// What a sample shows.
 struct SampleParams {
-  double side_m = 16.0;         ///< of the window, > 0
-  int cells = 64;               ///< of the window per side, >= 16
-  double ahead_m = 0.0;         ///< of the window's centre
-  double alone_share = 0.35;    ///< samples of one scan at a random heading, in [0, 1]
-  int max_scans = 6;            ///< of a submap, >= 1
-  double scan_spacing_m = 0.7;  ///< between scans of a submap, >= 0
+  double side_m = 16.0;           ///< of the window, > 0
+  int cells = 64;                 ///< of the window per side, >= 16
+  double ahead_m = 0.0;           ///< of the window's centre
+  double min_fine_side_m = 8.0;   ///< of the window after an improved prior, log-uniform, > 0
+  double max_fine_side_m = 12.0;  ///< >= min_fine_side_m
+  double alone_share = 0.35;      ///< samples of one scan at a random heading, in [0, 1]
+  int max_scans = 6;              ///< of a submap, >= 1
+  double scan_spacing_m = 0.7;    ///< between scans of a submap, >= 0
   OdometryNoise submap_noise = {.slip_m_per_m = 0.02,
                                 .slip_m_per_rad = 0.005,
                                 .turn_rad_per_m = 0.005,
@@ -58,6 +60,8 @@ void visit_fields(SampleParams& sample, Visitor&& visit) {
   visit("side_m", sample.side_m);
   visit("cells", sample.cells);
   visit("ahead_m", sample.ahead_m);
+  visit("min_fine_side_m", sample.min_fine_side_m);
+  visit("max_fine_side_m", sample.max_fine_side_m);
   visit("alone_share", sample.alone_share);
   visit("max_scans", sample.max_scans);
   visit("scan_spacing_m", sample.scan_spacing_m);
@@ -77,11 +81,19 @@ inline constexpr int kGridPoints = kGridPerSide * kGridPerSide;
 std::vector<Eigen::Vector2d> control_points_in_robot(const LocalWindow& window);
 std::vector<Eigen::Vector2d> grid_points_in_robot(const LocalWindow& window);
 
+/// What improves priors: networks that look once and twice.
+struct ImprovingNetworks {
+  WarpPredictor* once = nullptr;  ///< none: nothing does
+  WarpPredictor* twice = nullptr;
+};
+
 /// One thing to learn: the input of a network and what is true there. The frame of the prior is the
-/// robot frame as the prior believes it to lie in the drawing, in metres by the prior's scale.
+/// robot frame as the prior believes it to lie in the drawing; lengths in it are in units of
+/// unit_m(window) by the prior's scale, as in ResidualOutput.
 struct Sample {
   std::vector<float> input;  ///< see network_input
-  /// Where each control point truly lies in the frame of the prior, minus the point; x, y, ... m.
+  LocalWindow window{};
+  /// Where each control point truly lies in the frame of the prior, minus the point; x, y, ...
   std::array<float, 2 * kControls> control_shift{};
   /// The same for the grid points; of those indoors only.
   std::array<float, 2 * kGridPoints> grid_shift{};
@@ -90,19 +102,15 @@ struct Sample {
   /// x, y, ... in [-1, 1] over the image.
   std::array<float, 2 * kControls> published_source{};
   std::array<float, 4>
-      pose{};              ///< true pose in the frame of the prior: x m, y m, heading, log scale
+      pose{};              ///< true pose in the frame of the prior: x, y, heading rad, log scale
   Sim2 sketch_from_robot;  ///< true pose
   Sim2 prior_sketch_from_robot;
 };
 
-/// A true pose seen from a prior: x m, y m, heading rad, log scale.
-Eigen::Vector4d pose_in_prior(const Sim2& sketch_from_robot, const Sim2& prior_sketch_from_robot);
-
 /// The pose disturbed as priors are.
 Sim2 draw_prior(const Sim2& sketch_from_robot, const PriorError& error, Rng& rng);
 
-/// `network`: what improves priors; none: nothing does.
 Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng,
-                   WarpPredictor* network = nullptr);
+                   const ImprovingNetworks& networks = {});
 
 }  // namespace sketchloc

@@ -11,6 +11,7 @@
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
+#include "registration/network_output.hpp"
 #include "registration/network_predictor.hpp"
 
 namespace sketchloc {
@@ -39,6 +40,7 @@ SampleBatch empty_batch(const SampleSourceParams& params, InputKind kind) {
           .grid_weight = std::vector<float>(count * one.grid_weight.size()),
           .published_source = std::vector<float>(count * one.published_source.size()),
           .pose = std::vector<float>(count * one.pose.size()),
+          .unit_m = std::vector<float>(count),
           .sketch_from_robot = std::vector<Sim2>(count),
           .prior_sketch_from_robot = std::vector<Sim2>(count)};
 }
@@ -50,6 +52,7 @@ void put(SampleBatch& batch, std::size_t index, const Sample& sample) {
   put(batch.grid_weight, index, sample.grid_weight);
   put(batch.published_source, index, sample.published_source);
   put(batch.pose, index, sample.pose);
+  batch.unit_m[index] = static_cast<float>(unit_m(sample.window));
   batch.sketch_from_robot[index] = sample.sketch_from_robot;
   batch.prior_sketch_from_robot[index] = sample.prior_sketch_from_robot;
 }
@@ -115,13 +118,14 @@ class SampleSource::Work {
 
   void run(int thread, const std::stop_token& stop) {
     try {
-      const std::unique_ptr<WarpPredictor> network = improving_network();
+      const std::unique_ptr<WarpPredictor> once = improving_network(1);
+      const std::unique_ptr<WarpPredictor> twice = improving_network(2);
       for (std::uint64_t batch = stream_.first_batch; !stop.stop_requested(); ++batch) {
         {
           std::unique_lock lock(mutex_);
           changed_.wait(lock, stop, [&] { return batch < consumed_ + kBatchesAhead; });
         }
-        fill(thread, batch, network.get(), stop);
+        fill(thread, batch, {.once = once.get(), .twice = twice.get()}, stop);
         const std::lock_guard lock(mutex_);
         --places_[batch % kBatchesAhead].threads_left;
         changed_.notify_all();
@@ -133,17 +137,18 @@ class SampleSource::Work {
     }
   }
 
-  std::unique_ptr<WarpPredictor> improving_network() const {
+  std::unique_ptr<WarpPredictor> improving_network(int looks) const {
     if (stream_.improving_network.empty()) {
       return nullptr;
     }
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(stream_.improving_network.data());
     return make_network_predictor({bytes, stream_.improving_network.size()}, PredictorKind::Ours,
-                                  {.window = params_.sample.window(), .iterations = 1});
+                                  {.window = params_.sample.window(), .looks = looks});
   }
 
   /// This thread's scenes' part of a batch.
-  void fill(int thread, std::uint64_t batch, WarpPredictor* network, const std::stop_token& stop) {
+  void fill(int thread, std::uint64_t batch, const ImprovingNetworks& networks,
+            const std::stop_token& stop) {
     SampleBatch& target = places_[batch % kBatchesAhead].batch;
     for (int slot = thread; slot < params_.scenes; slot += thread_count_) {
       for (int index = slot; index < params_.batch && !stop.stop_requested();
@@ -152,7 +157,7 @@ class SampleSource::Work {
             batch * static_cast<std::uint64_t>(params_.batch) + static_cast<std::uint64_t>(index);
         Rng rng = make_rng(sample_seed_, sample);
         put(target, static_cast<std::size_t>(index),
-            draw_sample(scene_for(slot, sample), params_.sample, stream_.kind, rng, network));
+            draw_sample(scene_for(slot, sample), params_.sample, stream_.kind, rng, networks));
       }
     }
   }

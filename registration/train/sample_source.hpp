@@ -18,6 +18,7 @@ struct SampleBatch {
   std::vector<float> grid_weight;
   std::vector<float> published_source;
   std::vector<float> pose;
+  std::vector<float> unit_m;  ///< one for each sample, see unit_m
   std::vector<Sim2> sketch_from_robot;
   std::vector<Sim2> prior_sketch_from_robot;
 };

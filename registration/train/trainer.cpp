@@ -164,7 +164,8 @@ class Trainer::Implementation {
     const detail::ResidualTruth truth{
         .grid_shift = view(batch.grid_shift, {batch.count, kGridPoints, 2}),
         .grid_weight = view(batch.grid_weight, {batch.count, kGridPoints}),
-        .pose = view(batch.pose, {batch.count, 4})};
+        .pose = view(batch.pose, {batch.count, 4}),
+        .unit_m = view(batch.unit_m, {batch.count})};
     const detail::ResidualLoss loss = detail::residual_loss(output, truth, spline_);
     return {loss.total(), TrainingLoss{.grid = loss.grid.item<double>(),
                                        .pose = loss.pose.item<double>(),
@@ -200,18 +201,6 @@ void validate(const TrainerParams& params) {
   require_in_range("fall_share", params.fall_share, 0.0, 1.0);
   require_in_range("averaging", params.averaging, 0.0, 0.999999);
   require_above("max_gradient", params.max_gradient, 0.0);
-}
-
-TrainerParams trainer_params(NetworkKind kind) {
-  if (kind == NetworkKind::Ours) {
-    return {};
-  }
-  return {.learning_rate = 1e-4,
-          .last_learning_rate = 1e-4,
-          .warm_up_batches = 0,
-          .fall_share = 0.0,
-          .averaging = 0.0,
-          .max_gradient = 1e9};
 }
 
 Trainer::Trainer(const Plan& plan, const TrainerParams& params) {

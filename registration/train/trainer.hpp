@@ -37,9 +37,6 @@ void visit_fields(TrainerParams& trainer, Visitor&& visit) {
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const TrainerParams& params);
 
-/// Ours: the defaults. Chen20 and Affine as published: a fixed rate of 1e-4, no averaging.
-TrainerParams trainer_params(NetworkKind kind);
-
 /// Loss of one step and its parts (those that the kind does not have are 0).
 struct TrainingLoss {
   double total = 0.0;

@@ -43,7 +43,7 @@ std::optional<Sim2> pose_of(NetworkKind kind, std::span<const float> output,
     case NetworkKind::Affine:
       return pose_of_published(sources_of_affine(output), centre, window);
     case NetworkKind::Ours:
-      return pose_of_residual(output, prior_sketch_from_robot);
+      return pose_of_residual(output, prior_sketch_from_robot, window);
   }
   return std::nullopt;
 }

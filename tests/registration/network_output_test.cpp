@@ -24,7 +24,24 @@ TEST(ResidualOutput, PoseIsTakenInTheFrameOfThePrior) {
   output[ResidualOutput::kPose + 1] = static_cast<float>(prior_from_robot.y());
   output[ResidualOutput::kPose + 2] = static_cast<float>(prior_from_robot.yaw_rad());
   output[ResidualOutput::kPose + 3] = static_cast<float>(std::log(prior_from_robot.scale()));
-  EXPECT_THAT(pose_of_residual(output, prior), IsNear(truth, 1e-4));
+  EXPECT_THAT(pose_of_residual(output, prior, kWindow), IsNear(truth, 1e-4));
+}
+
+TEST(ResidualOutput, MeansLengthsByTheSizeOfTheWindow) {
+  const LocalWindow half{.side_m = 0.5 * kWindow.side_m, .cells = kWindow.cells};
+  std::vector<float> output(ResidualOutput::kSize);
+  output[ResidualOutput::kPose] = 1.0F;
+  for (std::size_t i = 0; i < 2 * kControls; i += 2) {
+    output[i] = 1.0F;  // the same shift in x for all control points
+  }
+  const Sim2 prior;
+  EXPECT_NEAR(pose_of_residual(output, prior, kWindow).x(), 1.0, 1e-9);
+  EXPECT_NEAR(pose_of_residual(output, prior, half).x(), 0.5, 1e-9);
+  EXPECT_NEAR(warp_of_residual(output, prior, half).pose()->x(), 0.5, 1e-6);
+  const Eigen::Matrix4d wide = covariance_of_residual(output, kWindow);
+  const Eigen::Matrix4d narrow = covariance_of_residual(output, half);
+  EXPECT_NEAR(narrow(0, 0), 0.25 * wide(0, 0), 1e-9);
+  EXPECT_NEAR(narrow(2, 2), wide(2, 2), 1e-9);
 }
 
 TEST(ResidualOutput, WhiteningIsTriangularWithAPositiveDiagonal) {

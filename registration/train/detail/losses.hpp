@@ -11,11 +11,12 @@ struct ResidualTruth {
   torch::Tensor grid_shift;   ///< points x 2
   torch::Tensor grid_weight;  ///< points
   torch::Tensor pose;         ///< 4
+  torch::Tensor unit_m;       ///< what lengths are in
 };
 
 struct ResidualLoss {
-  torch::Tensor grid;    ///< robust distance of warped grid points, m
-  torch::Tensor pose;    ///< robust distance of position, heading and scale, in m at a lever of 2 m
+  torch::Tensor grid;  ///< robust distance of warped grid points, in units
+  torch::Tensor pose;  ///< robust distance of position, heading and scale, in units at a lever of 2
   torch::Tensor spread;  ///< negative log likelihood of the pose, which moves the whitening only
   torch::Tensor inlier;  ///< cross entropy of "this pose is right"
 

@@ -18,7 +18,8 @@ using detail::ResidualTruth;
 ResidualTruth truth_of(const torch::Tensor& pose, std::int64_t points) {
   return {.grid_shift = torch::zeros({pose.size(0), points, 2}),
           .grid_weight = torch::ones({pose.size(0), points}),
-          .pose = pose};
+          .pose = pose,
+          .unit_m = torch::ones({pose.size(0)})};
 }
 
 TEST(ResidualLoss, VanishesAtTheTruth) {
@@ -67,6 +68,22 @@ TEST(ResidualLoss, SpreadMovesTheWhiteningOnly) {
     const bool whitening = i >= ResidualOutput::kWhitening && i < ResidualOutput::kWhitening + 10;
     EXPECT_EQ(output.grad()[0][i].item<double>() != 0.0, whitening) << i;
   }
+}
+
+TEST(ResidualLoss, TellsRightFromWrongInMetres) {
+  // 0.6 units off: wrong in units of a metre, right in those of half a metre.
+  torch::Tensor output = torch::zeros({1, ResidualOutput::kSize});
+  output[0][ResidualOutput::kInlierLogit] = 5.0;
+  torch::Tensor pose = torch::zeros({1, 4});
+  pose[0][0] = 0.6;
+  ResidualTruth truth = truth_of(pose, kControls);
+  const double in_metres =
+      detail::residual_loss(output, truth, torch::eye(kControls)).inlier.item<double>();
+  truth.unit_m = 0.5 * truth.unit_m;
+  const double in_halves =
+      detail::residual_loss(output, truth, torch::eye(kControls)).inlier.item<double>();
+  EXPECT_GT(in_metres, 4.9);
+  EXPECT_LT(in_halves, 0.1);
 }
 
 TEST(AffineSources, AgreeWithTheOnesUsedAfterTraining) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "registration/network_output.hpp"
 #include "tests/support/matchers.hpp"
 
 namespace sketchloc {
@@ -56,6 +57,47 @@ TEST(Sample, LabelsThePoseInTheFrameOfThePrior) {
                                                         sample.pose[2], std::exp(sample.pose[3]));
   EXPECT_THAT(sample.prior_sketch_from_robot * prior_from_robot,
               IsNear(sample.sketch_from_robot, 1e-3));
+}
+
+/// Finds every prior right.
+class Contented final : public WarpPredictor {
+ public:
+  std::vector<std::optional<Registration>> predict(std::span<const PlacedScan>,
+                                                   const SketchCropper&,
+                                                   std::span<const Sim2> priors) override {
+    const std::vector<Eigen::Vector2d> points = control_points_in_robot({});
+    std::vector<Eigen::Vector2d> places;
+    for (const Eigen::Vector2d& point : points) {
+      places.push_back(priors.front() * point);
+    }
+    return {Registration{.warp = *Warp::from_robot_points(points, places),
+                         .sketch_from_robot = priors.front(),
+                         .covariance = std::nullopt}};
+  }
+};
+
+TEST(Sample, LooksAgainThroughAFinerWindow) {
+  Contented contented;
+  SampleParams params;
+  params.prior.improved_share = 1.0;
+  const ImprovingNetworks networks{.once = &contented, .twice = &contented};
+  double least_m = params.side_m;
+  double most_m = 0.0;
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    Rng rng = make_rng(seed, 7);
+    const Sample sample = draw_sample(spline_home(), params, InputKind::Residual, rng, networks);
+    least_m = std::min(least_m, sample.window.side_m);
+    most_m = std::max(most_m, sample.window.side_m);
+    const double unit = unit_m(sample.window);
+    const Sim2 prior_from_robot = Sim2::from_xy_yaw_scale(
+        unit * sample.pose[0], unit * sample.pose[1], sample.pose[2], std::exp(sample.pose[3]));
+    EXPECT_THAT(sample.prior_sketch_from_robot * prior_from_robot,
+                IsNear(sample.sketch_from_robot, 1e-3));
+  }
+  EXPECT_GE(least_m, params.min_fine_side_m);
+  EXPECT_LT(least_m, params.min_fine_side_m + 1.0);
+  EXPECT_LE(most_m, params.max_fine_side_m);
+  EXPECT_GT(most_m, params.max_fine_side_m - 1.0);
 }
 
 TEST(Sample, GridLabelsAndControlLabelsAreOfOneWarp) {
@@ -133,6 +175,8 @@ TEST(Sample, PublishedLabelsAreTheWarpBackwards) {
 TEST(Sample, RefusesParametersOutOfRange) {
   EXPECT_NO_THROW(validate(SampleParams{}));
   EXPECT_THROW(validate(SampleParams{.max_scans = 0}), std::invalid_argument);
+  EXPECT_THROW(validate(SampleParams{.min_fine_side_m = 9.0, .max_fine_side_m = 8.0}),
+               std::invalid_argument);
   EXPECT_THROW(validate(PriorError{.least_size = 0.0}), std::invalid_argument);
   EXPECT_THROW(validate(SceneParams{.home_share = 0.7, .office_share = 0.7}),
                std::invalid_argument);

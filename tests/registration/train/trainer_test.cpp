@@ -53,17 +53,17 @@ class TrainerOf : public ::testing::TestWithParam<NetworkKind> {
 };
 
 TEST_P(TrainerOf, LearnsTheSameFromTheSame) {
-  Trainer one(plan(), trainer_params(GetParam()));
-  Trainer other(plan(), trainer_params(GetParam()));
+  Trainer one(plan(), TrainerParams{});
+  Trainer other(plan(), TrainerParams{});
   learn(one, 0, 3);
   learn(other, 0, 3);
   EXPECT_EQ(one.predict(data()[3]), other.predict(data()[3]));
 }
 
 TEST_P(TrainerOf, GoesOnFromACheckpointAsIfItHadNeverStopped) {
-  Trainer whole(plan(), trainer_params(GetParam()));
+  Trainer whole(plan(), TrainerParams{});
   learn(whole, 0, 3);
-  Trainer resumed(plan(), trainer_params(GetParam()));
+  Trainer resumed(plan(), TrainerParams{});
   resumed.restore(whole.checkpoint());
   EXPECT_EQ(resumed.batches_learned(), 3U);
   learn(whole, 3, 6);
@@ -72,9 +72,7 @@ TEST_P(TrainerOf, GoesOnFromACheckpointAsIfItHadNeverStopped) {
 }
 
 TEST_P(TrainerOf, GetsBetterAtWhatItSees) {
-  TrainerParams params = trainer_params(GetParam());
-  params.learning_rate = 1e-3;
-  Trainer trainer(plan(60), params);
+  Trainer trainer(plan(60), {.warm_up_batches = 0});
   const double before = trainer.learn(data()[0]).total;
   double after = before;
   for (int i = 0; i < 59; ++i) {
@@ -84,7 +82,7 @@ TEST_P(TrainerOf, GetsBetterAtWhatItSees) {
 }
 
 TEST_P(TrainerOf, ExportsWhatOpenCvComputesTheSame) {
-  Trainer trainer(plan(), trainer_params(GetParam()));
+  Trainer trainer(plan(), TrainerParams{});
   learn(trainer, 0, 4);
   const std::string onnx = onnx_bytes(trainer.folded());
   detail::register_correlation_layer();
@@ -105,7 +103,7 @@ TEST_P(TrainerOf, ExportsWhatOpenCvComputesTheSame) {
 }
 
 TEST_P(TrainerOf, JudgesByPoses) {
-  Trainer trainer(plan(), trainer_params(GetParam()));
+  Trainer trainer(plan(), TrainerParams{});
   const ValidationReport report = trainer.validate(data());
   EXPECT_EQ(report.samples, 128);
   EXPECT_GT(report.prior_position_m.median, 0.1);
