@@ -185,7 +185,7 @@ class ExampleMaker {
  public:
   ExampleMaker(const std::vector<RegistrationTask>& tasks, const NamedMethod& method,
                const NetworkPredictorParams& params)
-      : tasks_(tasks), predictors_({method}, params), window_(params.window) {}
+      : tasks_(tasks), predictors_({method}, params) {}
 
   RegistrationExample operator()(const RegistrationTrial& trial) {
     const auto task = std::ranges::find(tasks_, trial.set, &RegistrationTask::set);
@@ -206,13 +206,12 @@ class ExampleMaker {
                                      .prior_sketch_from_robot = prior,
                                      .registration = found ? &*found : nullptr,
                                      .true_sketch_from_robot = step.sketch_from_robot,
-                                     .window = window_})};
+                                     .window = found ? found->window : LocalWindow{}})};
   }
 
  private:
   const std::vector<RegistrationTask>& tasks_;
   Predictors predictors_;
-  LocalWindow window_;
   std::map<std::string, RegistrationSet> sets_;
 };
 

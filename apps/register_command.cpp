@@ -32,6 +32,7 @@
 #include "eval/registration_result.hpp"
 #include "motion/angles.hpp"
 #include "motion/number_text.hpp"
+#include "registration/alignment.hpp"
 
 namespace sketchloc {
 namespace {
@@ -135,6 +136,10 @@ void register_into(RegistrationResult& result, WarpPredictor& predictor,
   auto found = predictor.predict(submap, cropper, std::span(&result.prior_sketch_from_robot, 1));
   result.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   result.registration = std::move(found.front());
+  if (result.registration) {
+    result.window = result.registration->window;
+    result.alignment = alignment_score(submap, cropper, result.registration->warp, result.window);
+  }
 }
 
 Registered register_scan(const RegisterOptions& options, const RegisterParams& params) {
@@ -184,6 +189,7 @@ std::string pose_text(const Registration& found, const RegistrationResult& resul
                         sigma.position_m, deg_from_rad(sigma.heading_rad),
                         100.0 * found.inlier_probability);
   }
+  text += fmt::format("alignment of the bent scan with the strokes: {:.2f}\n", result.alignment);
   return text +
          fmt::format("the warp {} within the window of {:g} m\n",
                      find_folds(found.warp, result.window).folds() ? "folds" : "does not fold",

@@ -62,14 +62,16 @@ std::string main_table(const RegistrationPage& page) {
            fixed(100.0 * row.position_m.median, 1), fixed(100.0 * row.position_m.p90, 0),
            mean_text(row.mean_heading_rad, kDegrees, 1),
            fixed(kDegrees * row.heading_rad.median, 1), mean_text(row.share_nearer, 100.0, 0),
-           mean_text(row.share_right, 100.0, 0), fixed(row.median_ms, 1)});
+           mean_text(row.share_aligned, 100.0, 0), mean_text(row.share_right, 100.0, 0),
+           fixed(row.median_ms, 1)});
     }
   }
   return table({"drawings", "method", "priors", "n", "prior cm", "mean cm", "median cm", "p90 cm",
-                "mean deg", "median deg", "nearer %", "right %", "ms"},
+                "mean deg", "median deg", "nearer %", "aligned %", "right %", "ms"},
                lines) +
          "<p class=\"note\">Errors of position and heading; prior: its median error; nearer: than "
-         "the prior; right: within 0.5 m and 15 deg. In brackets: 95&#160;% intervals, by "
+         "the prior; aligned: the scan lies on strokes better than at the prior; right: within 0.5 "
+         "m and 15 deg. In brackets: 95&#160;% intervals, by "
          "bootstrap over the drives. "
          "Chained: each prior is the last result moved by the odometry, from a true start. A "
          "method "

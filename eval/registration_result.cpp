@@ -76,6 +76,7 @@ void add_registration(Json& json, const RegistrationResult& result) {
   });
   add("covariance", [](Found r) { return json_of(r.covariance); });
   add("inlier_probability", [](Found r) { return r.inlier_probability; });
+  add("alignment", [&](Found) { return result.alignment; });
   add("warp", [&](Found r) { return json_of(r.warp, result.window); });
 }
 

@@ -33,9 +33,10 @@ struct RegistrationResult {
   std::size_t step = 0;   ///< index of the scan in the run
   double time_s = 0.0;    ///< of the scan
   std::size_t scans = 1;  ///< that were looked at together, this one included
-  LocalWindow window;     ///< that was looked at
+  LocalWindow window;     ///< that was looked at; the last one, of several
   Sim2 prior_sketch_from_robot;
   std::optional<Registration> registration;  ///< none: nothing was found
+  double alignment = 0.0;                    ///< alignment_score of its warp
   double milliseconds = 0.0;                 ///< that registering took, without reading
   std::optional<ReferencePose> reference = std::nullopt;  ///< of the scan
 };

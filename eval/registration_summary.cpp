@@ -127,6 +127,11 @@ RegistrationRow row_of(const Trials& trials, Rng& rng) {
       trials, [](const auto& trial) { return is_right(trial) ? 1.0 : 0.0; }, rng);
   row.log_scale_error_median =
       summary([](const auto& trial) { return std::abs(trial.log_scale_error); }).median;
+  row.alignment_gain = mean_over_sets(
+      trials, [](const auto& trial) { return trial.alignment - trial.prior_alignment; }, rng);
+  row.share_aligned = mean_over_sets(
+      trials, [](const auto& trial) { return trial.alignment > trial.prior_alignment ? 1.0 : 0.0; },
+      rng);
   row.coverage = coverage_of(trials);
   row.reliability = reliability_of(trials);
   row.inlier_brier = summary(brier).mean;
@@ -181,6 +186,8 @@ Json json_of(const RegistrationRow& row) {
             {"mean_heading_error_deg", json_of(row.mean_heading_rad, kDegrees)},
             {"share_nearer_than_prior", json_of(row.share_nearer, 1.0)},
             {"share_right", json_of(row.share_right, 1.0)},
+            {"alignment_gain", json_of(row.alignment_gain, 1.0)},
+            {"share_better_aligned", json_of(row.share_aligned, 1.0)},
             {"log_scale_error_median", row.log_scale_error_median},
             {"inlier_brier", row.inlier_brier}};
   if (row.coverage) {
@@ -296,8 +303,8 @@ std::string registration_markdown(std::span<const RegistrationRow> rows) {
   std::string text =
       "| drawings | priors | method | trials | prior median cm | error mean cm | median cm | p90 "
       "cm | "
-      "heading mean deg | median deg | nearer % | ms |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+      "heading mean deg | median deg | nearer % | aligned % | ms |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const RegistrationRow& row : rows) {
     text += "| " + row.kind + " | " + row.protocol + " | " + row.method + " | " +
             std::to_string(row.trials) + " | " + detail::fixed(100.0 * row.prior_m.median, 0) +
@@ -307,6 +314,7 @@ std::string registration_markdown(std::span<const RegistrationRow> rows) {
             with_interval(row.mean_heading_rad, deg_from_rad(1.0), 1) + " | " +
             detail::fixed(deg_from_rad(row.heading_rad.median), 1) + " | " +
             detail::fixed(100.0 * row.share_nearer.mean, 0) + " | " +
+            detail::fixed(100.0 * row.share_aligned.mean, 0) + " | " +
             detail::fixed(row.median_ms, 1) + " |\n";
   }
   return text;

@@ -55,7 +55,9 @@ struct RegistrationRow {
   double log_scale_error_median = 0.0;  ///< of absolute values
   std::optional<Coverage> coverage;
   std::vector<ReliabilityBin> reliability;
-  double inlier_brier = 0.0;  ///< mean squared error of the inlier probability
+  double inlier_brier = 0.0;    ///< mean squared error of the inlier probability
+  MeanOverSets alignment_gain;  ///< alignment score of the pose minus that of the prior
+  MeanOverSets share_aligned;   ///< trials whose pose has a better alignment score than the prior
   double median_ms = 0.0;
 };
 

@@ -8,9 +8,12 @@
 #include "motion/angles.hpp"
 #include "motion/number_text.hpp"
 #include "motion/validate.hpp"
+#include "registration/alignment.hpp"
 
 namespace sketchloc {
 namespace {
+
+const LocalWindow kJudgedWindow{};  ///< alignment is compared in the same one for all methods
 
 using Clock = std::chrono::steady_clock;
 
@@ -57,6 +60,9 @@ RegistrationTrial judge(const RegistrationSet& set, std::size_t index,
   const Sim2& pose = answer.registration ? answer.registration->sketch_from_robot : prior;
   trial.error = registration_error(set, index, pose);
   trial.log_scale_error = std::log(pose.scale() / truth.scale());
+  const std::vector<PlacedScan> submap = set.steps[index].submap();
+  trial.prior_alignment = alignment_score(submap, set.drawing, prior, kJudgedWindow);
+  trial.alignment = alignment_score(submap, set.drawing, pose, kJudgedWindow);
   if (answer.registration) {
     trial.inlier_probability = answer.registration->inlier_probability;
     judge_covariance(trial, *answer.registration, truth);
@@ -137,7 +143,7 @@ std::vector<RegistrationTrial> run_around_truth(const RegistrationSet& set,
 std::string trials_csv(std::span<const RegistrationTrial> trials) {
   std::string text =
       "set,kind,protocol,method,index,prior_m,prior_deg,found,error_m,error_deg,log_scale_error,"
-      "nees_position,nees_pose,inlier_probability\n";
+      "nees_position,nees_pose,inlier_probability,prior_alignment,alignment\n";
   for (const RegistrationTrial& trial : trials) {
     text += trial.set + "," + trial.kind + "," + trial.protocol + "," + trial.method + "," +
             std::to_string(trial.index);
@@ -153,6 +159,8 @@ std::string trials_csv(std::span<const RegistrationTrial> trials) {
     add(trial.nees_position);
     add(trial.nees_pose);
     add(trial.inlier_probability);
+    add(trial.prior_alignment);
+    add(trial.alignment);
     text += "\n";
   }
   return text;

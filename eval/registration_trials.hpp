@@ -57,7 +57,9 @@ struct RegistrationTrial {
   std::optional<double> nees_position;  ///< 2 degrees of freedom; none without a covariance
   std::optional<double> nees_pose;      ///< position and heading, 3 degrees of freedom
   double inlier_probability = 1.0;
-  double milliseconds = 0.0;  ///< of all that the method did for it
+  double prior_alignment = 0.0;  ///< alignment_score of the prior
+  double alignment = 0.0;        ///< and of the pose, both without bending
+  double milliseconds = 0.0;     ///< of all that the method did for it
 };
 
 /// [Chen20]: along the trajectory, from the true pose at its first step, the prior is the last pose

@@ -136,7 +136,6 @@ Grid<float> SketchCropper::strokes(const Sim2& cells_from_sketch, int cells) con
   return strokes;
 }
 
-/// Bilinear; beyond the outermost pixel centres the way there is added.
 float SketchCropper::distance_px(const Eigen::Vector2f& point_in_sketch) const {
   const Eigen::Vector2f wanted = point_in_sketch.array() - 0.5F;
   const Eigen::Vector2f last(static_cast<float>(distance_px_.width() - 1),

@@ -42,6 +42,10 @@ class SketchCropper {
   Grid<float> upright_crop(const Eigen::Vector2d& centre_in_sketch, double side_px,
                            int cells) const;
 
+  /// How far a stroke is from a point. Bilinear; beyond the outermost pixel centres the way there
+  /// is added.
+  float distance_px(const Eigen::Vector2f& point_in_sketch) const;
+
   /// The centres of the pixels with ink that are no farther than this from a point, row by row.
   std::vector<Eigen::Vector2d> ink_near(const Eigen::Vector2d& point_in_sketch,
                                         double radius_px) const;
@@ -52,7 +56,6 @@ class SketchCropper {
   Grid<float> strokes(const Sim2& cells_from_sketch, int cells) const;
   Grid<float> nearness(const Sim2& cells_from_sketch, int cells) const;
   Grid<float> visible_free(const Sim2& sketch_from_robot, const LocalWindow& window) const;
-  float distance_px(const Eigen::Vector2f& point_in_sketch) const;
 
   std::vector<std::size_t> row_starts_;  ///< into ink_columns_, one per row and the end
   std::vector<int> ink_columns_;         ///< of the pixels with ink, row by row

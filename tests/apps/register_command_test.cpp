@@ -94,16 +94,20 @@ TEST_F(RegisterCommandEndToEnd, SaysWhereTheRobotIsAndWritesAFolder) {
   const fs::path out = outputs_ / "result";
   const CommandResult result =
       run(at_truth({"--out", out.string(), "--reference", input("reference.csv"),
-                    "--predictor.iterations", "2"}));
+                    "--predictor.looks", "2", "--predictor.fine_side_m", "8"}));
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("from the prior: 2.00 m, 0.0 deg"));  // 1 m per iteration
-  EXPECT_THAT(result.out, HasSubstr("from the reference: 2.00 m"));
-  EXPECT_THAT(result.out, HasSubstr("the warp does not fold within the window of 16 m"));
+  // 1 m by the first look, half as much through a window of half the size
+  EXPECT_THAT(result.out, HasSubstr("from the prior: 1.50 m, 0.0 deg"));
+  EXPECT_THAT(result.out, HasSubstr("from the reference: 1.50 m"));
+  EXPECT_THAT(result.out, HasSubstr("alignment of the bent scan with the strokes: 0."));
+  EXPECT_THAT(result.out, HasSubstr("the warp does not fold within the window of 8 m"));
   for (const char* file : {"registration.json", "registration.png", "report.html", "run.yaml"}) {
     EXPECT_GT(fs::file_size(out / file), 0U) << file;
   }
   const nlohmann::json json = json_in(out / "registration.json");
-  EXPECT_NEAR(json["from_prior"]["shift_m"].get<double>(), 2.0, 1e-6);
+  EXPECT_NEAR(json["from_prior"]["shift_m"].get<double>(), 1.5, 1e-6);
+  EXPECT_GT(json["alignment"].get<double>(), 0.0);
+  EXPECT_LT(json["alignment"].get<double>(), 1.0);
   EXPECT_NEAR(json["error"]["prior"]["shift_m"].get<double>(), 0.0, 1e-6);
   EXPECT_DOUBLE_EQ(json["inlier_probability"], 0.5);
   EXPECT_THAT(content_of(out / "report.html"), HasSubstr("home &amp; &lt;garden&gt;.png"));
