@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "apps/given_network.hpp"
 #include "apps/input_checks.hpp"
 #include "apps/inputs.hpp"
 #include "apps/memory.hpp"
@@ -29,6 +30,14 @@ namespace {
 
 const std::map<std::string, Method> kMethods = {{"mcl", Method::Mcl},
                                                 {"odometry", Method::Odometry}};
+constexpr const char* kNoRegistration = "none";
+
+const std::map<std::string, RegistrationMethod>& registration_methods() {
+  static const auto names = names_of(RegistrationMethod{});
+  static const std::map<std::string, RegistrationMethod> methods(names.begin(), names.end());
+  return methods;
+}
+
 const std::map<std::string, OdometrySource> kOdometrySources = {
     {"matched", OdometrySource::Matched}, {"raw", OdometrySource::Raw}};
 
@@ -64,6 +73,20 @@ RunRecord read_inputs(const LocalizeOptions& options) {
     }
   }
   return record;
+}
+
+/// What registers scans for the filter; none: nothing does.
+std::unique_ptr<WarpPredictor> predictor_of(const LocalizeOptions& options,
+                                            const LocalizationParams& params) {
+  if (options.registration == kNoRegistration) {
+    if (!options.network.empty()) {
+      throw std::invalid_argument("--network needs a --registration that runs one");
+    }
+    return nullptr;
+  }
+  run_networks_on_one_thread();
+  return predictor_from(registration_methods().at(options.registration), options.network,
+                        params.predictor);
 }
 
 /// Where the run starts; none: anywhere.
@@ -127,9 +150,11 @@ void localize_into(RunRecord& record, const LocalizeOptions& options,
   if (record.run.steps.empty()) {
     require_done(Localization::Status::EmptyRun, options);
   }
+  const std::unique_ptr<WarpPredictor> predictor = predictor_of(options, params);
   const LocalizationTask task{.method = options.method,
                               .odometry = options.odometry,
-                              .start_sketch_from_robot = start_of(options, record)};
+                              .start_sketch_from_robot = start_of(options, record),
+                              .predictor = predictor.get()};
   Progress progress("localize", record.run.steps.size());
   const Clock::time_point begin = Clock::now();
   Localization found = localize(record.sketch, record.run, task, params,
@@ -156,7 +181,8 @@ RunDescription description_of(const LocalizeOptions& options, const Localization
       .inputs = {{"map", options.map.string()},
                  {"log", options.log.string()},
                  {"method", name_of(kMethods, options.method)},
-                 {"odometry", name_of(kOdometrySources, options.odometry)}},
+                 {"odometry", name_of(kOdometrySources, options.odometry)},
+                 {"registration", options.registration}},
       .parameters = to_config(params),
       .drawing = PictureSize{.width_px = sketch.width_px(), .height_px = sketch.height_px()}};
   const auto add = [&](const char* option, const std::string& value) {
@@ -164,6 +190,7 @@ RunDescription description_of(const LocalizeOptions& options, const Localization
       description.inputs.emplace_back(option, value);
     }
   };
+  add("network", options.network.string());
   add("start", options.start);
   add("start-from-reference", options.start_from_reference ? "true" : "");
   add("global", options.start.empty() && !options.start_from_reference ? "true" : "");
@@ -190,7 +217,8 @@ void describe(RunRecord& record, const LocalizeOptions& options, const Localizat
                    {"log", options.log.filename().string()},
                    {"start", start_text(options)},
                    {"method", name_of(kMethods, options.method) + " on " +
-                                  name_of(kOdometrySources, options.odometry) + " odometry"}};
+                                  name_of(kOdometrySources, options.odometry) +
+                                  " odometry, registration: " + options.registration}};
   record.parameters = to_yaml(to_config(params));
 }
 
@@ -235,6 +263,18 @@ void add_algorithm_options(CLI::App& command, LocalizeOptions& options) {
   add_named_option(command, "--odometry", options.odometry, kOdometrySources,
                    "matched (refined by scan matching) or raw")
       ->group(kAlgorithmGroup);
+  option("--registration", options.registration,
+         "What registers scans to help the filter: none, ours, chen20, affine or icp")
+      ->check([](const std::string& name) {
+        return name == kNoRegistration || registration_methods().contains(name)
+                   ? std::string()
+                   : "there is no registration " + name +
+                         "; there are none, ours, chen20, affine and icp";
+      })
+      ->capture_default_str();
+  option("--network", options.network,
+         "A network that sketchloc train made, instead of the one that comes with the program")
+      ->type_name("FILE.onnx");
   option("--seed", options.seed, "Of all randomness; the same seed gives the same result")
       ->check(whole_number())
       ->capture_default_str();

@@ -31,6 +31,8 @@ struct LocalizeOptions {
 
   Method method = Method::Mcl;
   OdometrySource odometry = OdometrySource::Matched;
+  std::string registration = "none";  ///< or the name of a RegistrationMethod
+  std::filesystem::path network;      ///< of the registration; empty: the one that comes with it
   std::uint64_t seed = 1;
   unsigned jobs = 1;  ///< threads; 0: one per core
 

@@ -60,7 +60,7 @@ Localization localize_by_filter(const Sketch& sketch, const Run& run, const Loca
                                 const LocalizationParams& params,
                                 const std::function<void(std::size_t)>& progress) {
   Localization result;
-  Localizer localizer(sketch, params.localizer);
+  Localizer localizer(sketch, params.localizer, task.predictor);
   if (task.start_sketch_from_robot) {
     localizer.start_at(*task.start_sketch_from_robot);
   } else if (const GlobalStart start = localizer.start_anywhere(first_scan_with_returns(run));
@@ -120,6 +120,7 @@ Localization reckon(const Run& run, const LocalizationTask& task, const Localiza
 void validate(const LocalizationParams& params) {
   validate_part("localizer", params.localizer);
   validate_part("odometry", params.odometry);
+  validate_part("predictor", params.predictor);
 }
 
 Localization localize(const Sketch& sketch, const Run& run, const LocalizationTask& task,

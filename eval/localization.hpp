@@ -11,6 +11,7 @@
 #include "eval/run_record.hpp"
 #include "filter/localizer.hpp"
 #include "registration/matched_odometry.hpp"
+#include "registration/network_predictor.hpp"
 
 namespace sketchloc {
 
@@ -29,12 +30,14 @@ enum class OdometrySource {
 struct LocalizationParams {
   LocalizerParams localizer;
   MatchedOdometryParams odometry;
+  NetworkPredictorParams predictor;
 };
 
 template <typename Visitor>
 void visit_fields(LocalizationParams& params, Visitor&& visit) {
   visit("localizer", params.localizer);
   visit("odometry", params.odometry);
+  visit("predictor", params.predictor);
 }
 
 /// Throws std::invalid_argument naming the component and field, its range and its value.
@@ -44,7 +47,8 @@ struct LocalizationTask {
   Method method = Method::Mcl;
   OdometrySource odometry = OdometrySource::Matched;
   std::optional<Sim2> start_sketch_from_robot =
-      std::nullopt;  ///< none: anywhere in the drawing; MCL only
+      std::nullopt;                    ///< none: anywhere in the drawing; MCL only
+  WarpPredictor* predictor = nullptr;  ///< registers scans for MCL; none: nothing does
 };
 
 struct Localization {

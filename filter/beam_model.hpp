@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "filter/particle_set.hpp"
 #include "filter/predict.hpp"
 #include "registration/range_table.hpp"
+#include "registration/warp.hpp"
 
 namespace sketchloc {
 
@@ -36,6 +38,15 @@ class BeamModel {
 
   /// Takes the beams of a scan; returns how many there are to score. Keeps its memory.
   std::size_t observe(const Scan& scan);
+
+  /// The observed beams as a registration unbends them: with its warp W and the warp's Jacobian J
+  /// at the robot, end point b becomes J^-1 (W(b) - W(0)). What is left of the drawing's
+  /// deformation is linear, as in the particles. None where the warp folds at the robot.
+  std::optional<PreparedBeams> unbent(const Warp& warp) const;
+
+  /// The same as `score` for such beams.
+  void score(const ParticleSet& particles, const ParticleRange& range, const PreparedBeams& beams,
+             std::span<float> log_likelihood) const;
 
   /// Log-likelihood of the observed beams, not tempered, for a range of particles: written to
   /// log_likelihood[i] for each i in the range. Safe to call from many threads.

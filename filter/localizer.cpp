@@ -74,6 +74,7 @@ void validate(const LocalizerParams& params) {
   validate_part("gate", params.gate);
   validate_part("start", params.start);
   validate_part("recovery", params.recovery);
+  validate_part("fusion", params.fusion);
   validate_part("table", params.table);
   require_in_range("resample_below", params.resample_below, 0.0, 1.0);
   require_in_range("jobs", params.jobs, 1, 1024);
@@ -101,7 +102,7 @@ LocalizerParams metric_localizer_params() {
   return params;
 }
 
-Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params)
+Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params, WarpPredictor* predictor)
     : params_((validate(params), params)),
       table_(sketch.occupied, params.table),
       anywhere_(sketch, table_),
@@ -115,6 +116,10 @@ Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params)
     set->reserve(most);
   }
   scores_.resize(most);
+  unbent_scores_.resize(most);
+  if (predictor != nullptr) {
+    registrar_.emplace(sketch, *predictor, params.fusion);
+  }
   parents_.resize(most);
   if (sketch.px_per_m) {
     log_px_per_m_ = std::log(*sketch.px_per_m);
@@ -127,6 +132,10 @@ void Localizer::forget() {
   evidence_ = EvidenceMonitor(params_.recovery);
   last_odom_from_robot_.reset();
   updated_once_ = false;
+  report_.estimate.modes.clear();
+  if (registrar_) {
+    registrar_->forget();
+  }
 }
 
 void Localizer::start_at(const Sim2& sketch_from_robot) {
@@ -159,10 +168,14 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
   report_.resampled = false;
   report_.injected_share = 0.0;
   report_.log_likelihood = 0.0;
-  if (last_odom_from_robot_) {
-    predict_all(odometry_increment(*last_odom_from_robot_, odom_from_robot));
-  }
+  const Se2 robot_from_next =
+      last_odom_from_robot_ ? odometry_increment(*last_odom_from_robot_, odom_from_robot) : Se2();
   last_odom_from_robot_ = odom_from_robot;
+  if (registrar_) {
+    registrar_->add(scan, odom_from_robot, robot_from_next);
+  }
+  report_.registered = look(robot_from_next);
+  predict_all(robot_from_next);
   const std::size_t beams = gate_opens() ? observe(scan) : 0;
   report_.updated = beams > 0;
   if (report_.updated) {
@@ -171,7 +184,7 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
   report_.effective_particles = normalise(particles_).effective_particles;
   report_.particles = particles_.size();
   mode_finder_.find(particles_, report_.estimate);
-  if (report_.updated) {
+  if (report_.updated || report_.registered) {
     resample();
     recover();
   }
@@ -195,10 +208,26 @@ double Localizer::new_share() const {
 void Localizer::predict_all(const Se2& robot_from_next) {
   way_since_update_m_ += robot_from_next.translation().norm();
   turn_since_update_rad_ += std::abs(robot_from_next.yaw_rad());
+  const bool proposes = report_.registered && params_.fusion.propose;
   for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, steps_ * kPurposes + kPredict, chunk);
-    predict(particles_, range, robot_from_next, params_.predict, rng);
+    if (proposes) {
+      propose(particles_, range, robot_from_next, params_.predict, registrar_->likelihoods(),
+              likelihood_of_, rng);
+    } else {
+      predict(particles_, range, robot_from_next, params_.predict, rng);
+    }
   });
+}
+
+/// Registers, if it is time to; says whether that told anything.
+bool Localizer::look(const Se2& robot_from_next) {
+  if (!registrar_ || report_.estimate.modes.empty() || !registrar_->is_due()) {
+    return false;
+  }
+  registrar_->look(report_.estimate.modes, robot_from_next);
+  registrar_->assign(particles_, likelihood_of_);
+  return !registrar_->likelihoods().empty();
 }
 
 std::size_t Localizer::observe(const Scan& scan) {
@@ -220,6 +249,11 @@ void Localizer::weigh(std::size_t beams) {
     const double weight = std::exp(particles_.log_weight[i]);
     weight_sum += weight;
     score_sum += weight * scores_[i];
+  }
+  if (report_.registered && params_.fusion.measure) {
+    add_unbent_scores(exponent);
+  }
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
     particles_.log_weight[i] += static_cast<float>(exponent * scores_[i]);
   }
   const double per_beam = score_sum / weight_sum / static_cast<double>(beams);
@@ -228,6 +262,35 @@ void Localizer::weigh(std::size_t beams) {
   way_since_update_m_ = 0.0;
   turn_since_update_rad_ = 0.0;
   updated_once_ = true;
+}
+
+/// The scan as it is and as its particle's registration unbends it, as a mixture of both: a wrong
+/// warp makes it no worse.
+void Localizer::add_unbent_scores(double exponent) {
+  const auto* model = std::get_if<BeamModel>(&model_);
+  if (model == nullptr) {
+    return;
+  }
+  const std::span<const Registration> registrations = registrar_->registrations();
+  for (std::size_t which = 0; which < registrations.size(); ++which) {
+    const std::optional<PreparedBeams> beams = model->unbent(registrations[which].warp);
+    if (!beams) {
+      continue;
+    }
+    for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t, ParticleRange range) {
+      model->score(particles_, range, *beams, unbent_scores_);
+      for (std::size_t i = range.begin; i < range.end; ++i) {
+        if (likelihood_of_[i] == static_cast<std::int8_t>(which)) {
+          const double bent = exponent * scores_[i];
+          const double unbent = exponent * unbent_scores_[i];
+          const double most = std::max(bent, unbent);
+          scores_[i] = static_cast<float>(
+              (most + std::log(0.5 * (std::exp(bent - most) + std::exp(unbent - most)))) /
+              exponent);
+        }
+      }
+    });
+  }
 }
 
 void Localizer::resample() {

@@ -15,6 +15,7 @@
 #include "filter/particle_set.hpp"
 #include "filter/predict.hpp"
 #include "filter/recovery.hpp"
+#include "filter/registrar.hpp"
 #include "filter/resample.hpp"
 #include "filter/step_report.hpp"
 #include "motion/odometry.hpp"
@@ -78,6 +79,7 @@ struct LocalizerParams {
   MotionGate gate;
   StartSpread start;
   RecoveryParams recovery;
+  FusionParams fusion;
   RangeTableParams table;
   double resample_below = 0.5;  ///< share of effective particles that calls for resampling, [0, 1]
   std::uint64_t seed = 1;
@@ -96,6 +98,7 @@ void visit_fields(LocalizerParams& params, Visitor&& visit) {
   visit("gate", params.gate);
   visit("start", params.start);
   visit("recovery", params.recovery);
+  visit("fusion", params.fusion);
   visit("table", params.table);
   visit("resample_below", params.resample_below);
 }
@@ -117,8 +120,10 @@ enum class GlobalStart {
 /// given: refine wheel odometry first (registration/matched_odometry.hpp).
 class Localizer {
  public:
-  /// Throws std::invalid_argument if a parameter is out of range.
-  Localizer(const Sketch& sketch, const LocalizerParams& params);
+  /// With a predictor, which must outlive the localizer, registrations help. Throws
+  /// std::invalid_argument if a parameter is out of range.
+  Localizer(const Sketch& sketch, const LocalizerParams& params,
+            WarpPredictor* predictor = nullptr);
 
   /// Starts at a known pose.
   void start_at(const Sim2& sketch_from_robot);
@@ -138,6 +143,8 @@ class Localizer {
  private:
   void forget();
   void predict_all(const Se2& robot_from_next);
+  bool look(const Se2& robot_from_next);
+  void add_unbent_scores(double exponent);
   std::size_t observe(const Scan& scan);
   void score(const ParticleSet& particles);
   void weigh(std::size_t beams);
@@ -155,12 +162,15 @@ class Localizer {
   std::variant<BeamModel, EndPointModel> model_;
   ModeFinder mode_finder_;
   EvidenceMonitor evidence_;
+  std::optional<Registrar> registrar_;
   BinTable bins_;
 
   ParticleSet particles_;
   ParticleSet resampled_;   ///< back buffer
   ParticleSet candidates_;  ///< for recovery
   std::vector<float> scores_;
+  std::vector<float> unbent_scores_;
+  std::vector<std::int8_t> likelihood_of_;
   std::vector<std::uint32_t> parents_;
 
   std::optional<double> log_px_per_m_;  ///< of a map with a known scale

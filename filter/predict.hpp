@@ -1,8 +1,11 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "filter/particle_set.hpp"
+#include "filter/pose_likelihood.hpp"
 #include "motion/odometry.hpp"
 #include "motion/random.hpp"
 
@@ -67,5 +70,17 @@ struct ParticleRange {
 /// particle's own local map. Without motion nothing changes and nothing is drawn.
 void predict(ParticleSet& particles, const ParticleRange& range, const Se2& robot_from_next,
              const PredictParams& params, Rng& rng);
+
+/// Of no likelihood: where no registration was asked about a particle.
+inline constexpr std::int8_t kNoLikelihood = -1;
+
+/// The same, knowing what registrations say about where the particles are now: each particle is
+/// drawn from the product of its motion and its likelihood, the optimal proposal [Doucet00], and
+/// weighted by how probable that likelihood was for it. `likelihood_of[i]` is the index of particle
+/// i's; for all others it counts as an outlier. Exact: the weighted particles represent motion
+/// times likelihood (docs/filter.md).
+void propose(ParticleSet& particles, const ParticleRange& range, const Se2& robot_from_next,
+             const PredictParams& params, std::span<const PoseLikelihood> likelihoods,
+             std::span<const std::int8_t> likelihood_of, Rng& rng);
 
 }  // namespace sketchloc

@@ -12,6 +12,7 @@ struct StepReport {
   double time_s = 0.0;
   Estimate estimate;
   bool updated = false;         ///< false: the motion gate kept the scan out
+  bool registered = false;      ///< registrations told where the particles may be
   double log_likelihood = 0.0;  ///< per beam, weighted mean over the particles; 0 if not updated
   double effective_particles = 0.0;
   std::size_t particles = 0;

@@ -1,0 +1,62 @@
+#include "filter/pose_likelihood.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "motion/check.hpp"
+#include "motion/validate.hpp"
+
+namespace sketchloc {
+
+namespace {
+
+/// The strain (axial, diagonal) of the warp's Jacobian at the robot: J J^T = scale^2 exp(2 strain).
+/// None where it folds.
+Eigen::Vector2d strain_of(const Warp& warp) {
+  const std::optional<PlaneMapPoint> robot = warp.sketch_from_robot(Eigen::Vector2d::Zero());
+  if (!robot || !(robot->jacobian.determinant() > 0.0)) {
+    return Eigen::Vector2d::Zero();
+  }
+  const Eigen::Matrix2d square = robot->jacobian * robot->jacobian.transpose();
+  const Eigen::Vector2d deviator(0.5 * (square(0, 0) - square(1, 1)), square(0, 1));
+  const double size = deviator.norm();
+  const double mean = 0.5 * square.trace();
+  // exp of a traceless symmetric matrix of size 2 e: cosh 2e on the mean, sinh 2e along it.
+  return size > 1e-12 ? Eigen::Vector2d(deviator / size * 0.5 * std::atanh(size / mean))
+                      : Eigen::Vector2d::Zero();
+}
+
+}  // namespace
+
+void validate(const PoseTrust& trust) {
+  require_above("inflation", trust.inflation, 0.0);
+  require_at_least("max_ratio", trust.max_ratio, 1.0);
+  require_in_range("max_probability", trust.max_probability, 1e-6, 1.0 - 1e-6);
+  require_above("min_position_m", trust.min_position_m, 0.0);
+  require_above("min_heading_rad", trust.min_heading_rad, 0.0);
+  require_above("min_log_scale", trust.min_log_scale, 0.0);
+  require_above("strain_sigma", trust.strain_sigma, 0.0);
+}
+
+PoseLikelihood pose_likelihood(const Registration& registration, const PoseTrust& trust,
+                               double share) {
+  check(registration.covariance.has_value(), "a registration that says how sure it is");
+  check(share > 0.0 && share <= 1.0, "a share of the evidence");
+  const Sim2& pose = registration.sketch_from_robot;
+  const Eigen::Vector4d least(trust.min_position_m, trust.min_position_m, trust.min_heading_rad,
+                              trust.min_log_scale);
+  Eigen::Matrix4d covariance = *registration.covariance * (trust.inflation * trust.inflation);
+  covariance.diagonal() += least.cwiseAbs2();
+  Eigen::Matrix4d sketch_from_error = Eigen::Matrix4d::Identity();
+  sketch_from_error.topLeftCorner<2, 2>() = pose.scaled_rotation_matrix();
+  const double probability = std::min(registration.inlier_probability, trust.max_probability);
+  return {.mean = {pose.x(), pose.y(), pose.yaw_rad(), std::log(pose.scale())},
+          .covariance = sketch_from_error * covariance * sketch_from_error.transpose() / share,
+          .strain = strain_of(registration.warp),
+          .strain_sigma = trust.strain_sigma / std::sqrt(share),
+          .outlier = 1.0 - probability,
+          .inlier = probability * std::pow(trust.max_ratio, share)};
+}
+
+}  // namespace sketchloc
