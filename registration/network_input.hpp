@@ -23,10 +23,12 @@ constexpr double published_crop_side_px(const LocalWindow& window) {
 }
 
 /// Planes of window.cells^2 values, one channel after the other, each row by row from the right of
-/// the robot (row 0), as Grid has them. `submap` is not empty; the present scan comes first. The
-/// published input takes nothing else, and of the prior only the position.
+/// the robot (row 0), as Grid has them; one such input after the other, for each prior. `submap` is
+/// not empty; the present scan comes first. The published input takes nothing else, and of the
+/// prior only the position.
 std::vector<float> network_input(InputKind kind, std::span<const PlacedScan> submap,
-                                 const SketchCropper& sketch, const Sim2& prior_sketch_from_robot,
+                                 const SketchCropper& sketch,
+                                 std::span<const Sim2> priors_sketch_from_robot,
                                  const LocalWindow& window);
 
 }  // namespace sketchloc

@@ -1,6 +1,8 @@
 #include "registration/network_predictor.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <mutex>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/dnn/dnn.hpp>
@@ -27,6 +29,19 @@ std::size_t outputs_of(PredictorKind kind) {
   }
   check(false, "a kind of predictor");
   return 0;
+}
+
+constexpr double kMostLogScale = 1.4;  ///< a pose with a scale farther from its prior's is none
+constexpr double kLeastSide_px = 8.0;
+constexpr double kMostSide_px = 1e5;
+
+bool all_finite(const std::vector<float>& output) {
+  return std::ranges::all_of(output, [](float value) { return std::isfinite(value); });
+}
+
+bool is_usable(const std::vector<float>& residual_output) {
+  return all_finite(residual_output) &&
+         std::abs(residual_output[ResidualOutput::kPose + 3]) < kMostLogScale;
 }
 
 /// OpenCV warns of every operation that is not its own, and prints what it throws too. Its log
@@ -101,17 +116,24 @@ class NetworkPredictor final : public WarpPredictor {
     return network_.forward();
   }
 
+  /// Whether a window around the priors has a size in pixels that a drawing can have.
+  bool can_look(std::span<const Sim2> priors) const {
+    return !priors.empty() && std::ranges::all_of(priors, [&](const Sim2& prior) {
+      const double side_px = params_.window.side_m * prior.scale();
+      return side_px > kLeastSide_px && side_px < kMostSide_px;
+    });
+  }
+
   /// One row of outputs for each prior.
   std::vector<std::vector<float>> look(std::span<const PlacedScan> submap,
                                        const SketchCropper& drawing, std::span<const Sim2> priors,
                                        const LocalWindow& window) {
-    std::vector<float> input;
-    for (const Sim2& prior : priors) {
-      const std::vector<float> planes = network_input(input_kind(), submap, drawing, prior, window);
-      input.insert(input.end(), planes.begin(), planes.end());
-    }
-    const cv::Mat output = forward(input, priors.size());
+    const cv::Mat output =
+        forward(network_input(input_kind(), submap, drawing, priors, window), priors.size());
     const std::size_t width = outputs_of(kind_);
+    if (output.total() != priors.size() * width) {
+      throw std::runtime_error("the network does not take several inputs at once");
+    }
     std::vector<std::vector<float>> rows;
     for (std::size_t i = 0; i < priors.size(); ++i) {
       const float* row = output.ptr<float>() + i * width;
@@ -124,7 +146,7 @@ class NetworkPredictor final : public WarpPredictor {
                                                             const SketchCropper& drawing,
                                                             std::span<const Sim2> priors) {
     std::vector<std::optional<Registration>> results(priors.size());
-    if (priors.empty()) {
+    if (!can_look(priors)) {
       return results;
     }
     std::vector<Sim2> from(priors.begin(), priors.end());
@@ -133,6 +155,9 @@ class NetworkPredictor final : public WarpPredictor {
       window.side_m = taken == 0 ? params_.window.side_m : params_.fine_side_m;
       const std::vector<std::vector<float>> outputs = look(submap, drawing, from, window);
       for (std::size_t i = 0; i < from.size(); ++i) {
+        if (!is_usable(outputs[i])) {
+          continue;  // what an earlier look found stands
+        }
         const Sim2 pose = pose_of_residual(outputs[i], from[i], window);
         results[i] = Registration{.warp = warp_of_residual(outputs[i], from[i], window),
                                   .window = window,
@@ -149,7 +174,7 @@ class NetworkPredictor final : public WarpPredictor {
                                                              const SketchCropper& drawing,
                                                              std::span<const Sim2> priors) {
     std::vector<std::optional<Registration>> results(priors.size());
-    if (priors.empty()) {
+    if (!can_look(priors)) {
       return results;
     }
     const std::vector<std::vector<float>> outputs = look(submap, drawing, priors, params_.window);
@@ -160,7 +185,10 @@ class NetworkPredictor final : public WarpPredictor {
         sources.assign(spread.begin(), spread.end());
       }
       const Eigen::Vector2d& centre = priors[i].translation();
-      if (const auto pose = pose_of_published(sources, centre, params_.window)) {
+      const std::optional<Sim2> pose = all_finite(outputs[i])
+                                           ? pose_of_published(sources, centre, params_.window)
+                                           : std::nullopt;
+      if (pose && std::abs(std::log(pose->scale() / priors[i].scale())) < kMostLogScale) {
         results[i] = Registration{.warp = warp_of_published(sources, centre, params_.window),
                                   .window = params_.window,
                                   .sketch_from_robot = *pose,

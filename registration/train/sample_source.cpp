@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -143,7 +144,10 @@ class SampleSource::Work {
     }
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(stream_.improving_network.data());
     return make_network_predictor({bytes, stream_.improving_network.size()}, PredictorKind::Ours,
-                                  {.window = params_.sample.window(), .looks = looks});
+                                  {.window = params_.sample.window(),
+                                   .looks = looks,
+                                   .fine_side_m = std::sqrt(params_.sample.min_fine_side_m *
+                                                            params_.sample.max_fine_side_m)});
   }
 
   /// This thread's scenes' part of a batch.
