@@ -28,9 +28,10 @@
 namespace sketchloc {
 namespace {
 
-const std::map<std::string, Method> kMethods = {{"mcl", Method::Mcl},
-                                                {"odometry", Method::Odometry}};
+const std::map<std::string, Method> kMethods = {
+    {"mcl", Method::Mcl}, {"chained", Method::Chained}, {"odometry", Method::Odometry}};
 constexpr const char* kNoRegistration = "none";
+constexpr const char* kSaysHowSureItIs = "ours";
 
 const std::map<std::string, RegistrationMethod>& registration_methods() {
   static const auto names = names_of(RegistrationMethod{});
@@ -51,8 +52,21 @@ void check_starts(const LocalizeOptions& options) {
   if (options.start_from_reference && options.reference.empty()) {
     throw std::invalid_argument("--start-from-reference needs --reference REF.csv");
   }
-  if (starts == 0 && options.method == Method::Odometry) {
-    throw std::invalid_argument("--method odometry needs --start or --start-from-reference");
+  if (options.start.empty() && !options.start_from_reference && options.method != Method::Mcl) {
+    throw std::invalid_argument("--method " + name_of(kMethods, options.method) +
+                                " needs --start or --start-from-reference");
+  }
+  if (options.method == Method::Chained && options.registration == kNoRegistration) {
+    throw std::invalid_argument("--method chained needs a --registration");
+  }
+  if (options.method == Method::Mcl && options.registration != kNoRegistration &&
+      options.registration != kSaysHowSureItIs) {
+    throw std::invalid_argument("--registration " + options.registration +
+                                " does not say how sure it is, so that the filter cannot use it; "
+                                "give ours, or --method chained");
+  }
+  if (options.method == Method::Odometry && options.registration != kNoRegistration) {
+    throw std::invalid_argument("--method odometry uses no --registration");
   }
 }
 
@@ -121,7 +135,8 @@ void require_done(Localization::Status status, const LocalizeOptions& options) {
                                ": no scan has a return, so that nothing tells the drawing's scale; "
                                "give --start with PX_PER_M");
     case Localization::Status::NoStart:
-      throw std::invalid_argument("--method odometry needs --start or --start-from-reference");
+      throw std::invalid_argument("--method " + name_of(kMethods, options.method) +
+                                  " needs --start or --start-from-reference");
   }
 }
 
@@ -258,13 +273,15 @@ void add_algorithm_options(CLI::App& command, LocalizeOptions& options) {
   add_drawing_options(command, options.drawing, "Of the drawing");
   add_start_options(command, options);
   add_named_option(command, "--method", options.method, kMethods,
-                   "mcl, or odometry: dead reckoning from the start")
+                   "mcl; chained: one registration after the other, without a filter; or odometry: "
+                   "dead reckoning from the start")
       ->group(kAlgorithmGroup);
   add_named_option(command, "--odometry", options.odometry, kOdometrySources,
                    "matched (refined by scan matching) or raw")
       ->group(kAlgorithmGroup);
   option("--registration", options.registration,
-         "What registers scans to help the filter: none, ours, chen20, affine or icp")
+         "What registers scans: none, or ours to help the filter; with --method chained also "
+         "chen20, affine and icp")
       ->check([](const std::string& name) {
         return name == kNoRegistration || registration_methods().contains(name)
                    ? std::string()

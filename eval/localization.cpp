@@ -6,6 +6,7 @@
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
 #include "registration/ray_caster.hpp"
+#include "registration/recent_scans.hpp"
 
 namespace sketchloc {
 namespace {
@@ -84,7 +85,7 @@ Localization localize_by_filter(const Sketch& sketch, const Run& run, const Loca
   return result;
 }
 
-StepReport dead_reckoned(std::size_t step, double time_s, const Sim2& sketch_from_robot) {
+StepReport report_of(std::size_t step, double time_s, const Sim2& sketch_from_robot) {
   StepReport report;
   report.step = step;
   report.time_s = time_s;
@@ -106,8 +107,47 @@ Localization reckon(const Run& run, const LocalizationTask& task, const Localiza
     const Se2 odom_from_robot = odometry.odom_from_robot(run.steps[i]);
     odom_from_start = odom_from_start.value_or(odom_from_robot);
     const Se2 start_from_robot = odom_from_start->inverse() * odom_from_robot;
-    result.steps.push_back(dead_reckoned(i, run.steps[i].scan.time_s,
-                                         *task.start_sketch_from_robot * start_from_robot));
+    result.steps.push_back(
+        report_of(i, run.steps[i].scan.time_s, *task.start_sketch_from_robot * start_from_robot));
+    if (progress) {
+      progress(i + 1);
+    }
+  }
+  return result;
+}
+
+/// Registers now and then, and carries the pose on by odometry between.
+Localization chain(const Sketch& sketch, const Run& run, const LocalizationTask& task,
+                   const LocalizationParams& params,
+                   const std::function<void(std::size_t)>& progress) {
+  check(task.predictor != nullptr, "a chain registers");
+  Localization result;
+  if (!task.start_sketch_from_robot) {
+    result.status = Localization::Status::NoStart;
+    return result;
+  }
+  const SketchCropper cropper(sketch);
+  RecentScans recent(params.localizer.fusion.recent);
+  OdometryFeed odometry(task.odometry, params.odometry);
+  Sim2 sketch_from_robot = *task.start_sketch_from_robot;
+  std::optional<Se2> last_odom_from_robot;
+  double way_m = 0.0;
+  for (std::size_t i = 0; i < run.steps.size(); ++i) {
+    const Scan& scan = run.steps[i].scan;
+    const Se2 odom_from_robot = odometry.odom_from_robot(run.steps[i]);
+    const Se2 step = last_odom_from_robot.value_or(odom_from_robot).inverse() * odom_from_robot;
+    last_odom_from_robot = odom_from_robot;
+    sketch_from_robot = sketch_from_robot * step;
+    way_m += step.translation().norm();
+    recent.add(scan, odom_from_robot);
+    std::optional<Registration> found;
+    if ((i == 0 || way_m >= params.chain_way_m) && !end_points_in_robot(scan).empty()) {
+      found = task.predictor->predict(recent.placed(), cropper, {&sketch_from_robot, 1}).front();
+      way_m = 0.0;
+    }
+    sketch_from_robot = found ? found->sketch_from_robot : sketch_from_robot;
+    result.steps.push_back(report_of(i, scan.time_s, sketch_from_robot));
+    result.steps.back().registered = found.has_value();
     if (progress) {
       progress(i + 1);
     }
@@ -121,6 +161,7 @@ void validate(const LocalizationParams& params) {
   validate_part("localizer", params.localizer);
   validate_part("odometry", params.odometry);
   validate_part("predictor", params.predictor);
+  require_at_least("chain_way_m", params.chain_way_m, 0.0);
 }
 
 Localization localize(const Sketch& sketch, const Run& run, const LocalizationTask& task,
@@ -132,8 +173,15 @@ Localization localize(const Sketch& sketch, const Run& run, const LocalizationTa
     nothing.status = Localization::Status::EmptyRun;
     return nothing;
   }
-  return task.method == Method::Odometry ? reckon(run, task, params, progress)
-                                         : localize_by_filter(sketch, run, task, params, progress);
+  switch (task.method) {
+    case Method::Odometry:
+      return reckon(run, task, params, progress);
+    case Method::Chained:
+      return chain(sketch, run, task, params, progress);
+    case Method::Mcl:
+      return localize_by_filter(sketch, run, task, params, progress);
+  }
+  return {};
 }
 
 std::optional<double> guess_px_per_m(const Sketch& sketch, const Eigen::Vector2d& place_in_sketch,

@@ -18,6 +18,7 @@ namespace sketchloc {
 /// What finds the robot in the drawing.
 enum class Method {
   Mcl,      ///< Monte Carlo localization
+  Chained,  ///< one registration after the other, each from the last one's pose [Chen20]
   Odometry  ///< dead reckoning from the start: what the others must beat
 };
 
@@ -31,6 +32,7 @@ struct LocalizationParams {
   LocalizerParams localizer;
   MatchedOdometryParams odometry;
   NetworkPredictorParams predictor;
+  double chain_way_m = 0.5;  ///< between registrations of a chain; between them odometry, >= 0
 };
 
 template <typename Visitor>
@@ -38,6 +40,7 @@ void visit_fields(LocalizationParams& params, Visitor&& visit) {
   visit("localizer", params.localizer);
   visit("odometry", params.odometry);
   visit("predictor", params.predictor);
+  visit("chain_way_m", params.chain_way_m);
 }
 
 /// Throws std::invalid_argument naming the component and field, its range and its value.
@@ -48,7 +51,7 @@ struct LocalizationTask {
   OdometrySource odometry = OdometrySource::Matched;
   std::optional<Sim2> start_sketch_from_robot =
       std::nullopt;                    ///< none: anywhere in the drawing; MCL only
-  WarpPredictor* predictor = nullptr;  ///< registers scans for MCL; none: nothing does
+  WarpPredictor* predictor = nullptr;  ///< registers scans; a chain needs one
 };
 
 struct Localization {
@@ -57,7 +60,7 @@ struct Localization {
     EmptyRun,     ///< no steps
     NoFreeSpace,  ///< the drawing encloses nothing to start in
     NoReturns,    ///< no scan saw anything, so that nothing tells the drawing's scale
-    NoStart       ///< dead reckoning needs a start
+    NoStart       ///< dead reckoning and a chain need a start
   };
   Status status = Status::Done;
   std::vector<StepReport> steps;            ///< one per step of the run, if Done

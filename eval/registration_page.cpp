@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "eval/detail/chart.hpp"
+#include "eval/detail/page_table.hpp"
 #include "eval/detail/style.hpp"
 #include "eval/detail/text.hpp"
 #include "eval/registration_suite.hpp"
@@ -22,34 +23,8 @@ constexpr double kDegrees = deg_from_rad(1.0);
 constexpr std::array<detail::Colour, 6> kColours = {
     {{0, 100, 190}, {213, 68, 0}, {230, 159, 0}, {0, 158, 115}, {150, 80, 150}, {110, 110, 118}}};
 
-std::string section(const std::string& title, const std::string& body) {
-  return "<section><h2>" + escaped(title) + "</h2>" + body + "</section>";
-}
-
 std::string mean_text(const MeanOverSets& mean, double factor, int decimals) {
-  std::string text = fixed(factor * mean.mean, decimals);
-  if (mean.interval) {
-    text += " [" + fixed(factor * mean.interval->low, decimals) + ", " +
-            fixed(factor * mean.interval->high, decimals) + "]";
-  }
-  return text;
-}
-
-std::string table(const std::vector<std::string>& heads,
-                  const std::vector<std::vector<std::string>>& lines) {
-  std::string html = "<div class=\"scroll\"><table class=\"results\"><thead><tr>";
-  for (const std::string& head : heads) {
-    html += "<th>" + escaped(head) + "</th>";
-  }
-  html += "</tr></thead><tbody>";
-  for (const std::vector<std::string>& line : lines) {
-    html += "<tr>";
-    for (const std::string& cell : line) {
-      html += "<td>" + escaped(cell) + "</td>";
-    }
-    html += "</tr>";
-  }
-  return html + "</tbody></table></div>";
+  return detail::with_interval(mean.mean, mean.interval, factor, decimals);
 }
 
 std::string main_table(const RegistrationPage& page) {
@@ -66,9 +41,10 @@ std::string main_table(const RegistrationPage& page) {
            fixed(row.median_ms, 1)});
     }
   }
-  return table({"drawings", "method", "priors", "n", "prior cm", "mean cm", "median cm", "p90 cm",
-                "mean deg", "median deg", "nearer %", "aligned %", "right %", "ms"},
-               lines) +
+  return detail::results_table(
+             {"drawings", "method", "priors", "n", "prior cm", "mean cm", "median cm", "p90 cm",
+              "mean deg", "median deg", "nearer %", "aligned %", "right %", "ms"},
+             lines) +
          "<p class=\"note\">Errors of position and heading; prior: its median error; nearer: than "
          "the prior; aligned: the scan lies on strokes better than at the prior; right: within 0.5 "
          "m and 15 deg. In brackets: 95&#160;% intervals, by "
@@ -91,7 +67,8 @@ std::string difference_table(const RegistrationPage& page) {
                      difference.protocol, mean_text(difference.position_m, 100.0, 1),
                      mean_text(difference.heading_rad, kDegrees, 1)});
   }
-  return table({"drawings", "methods", "priors", "error, cm", "heading, deg"}, lines) +
+  return detail::results_table({"drawings", "methods", "priors", "error, cm", "heading, deg"},
+                               lines) +
          "<p class=\"note\">Mean differences on the same questions: below zero, the first is "
          "better.</p>";
 }
@@ -209,14 +186,15 @@ std::string calibration(const RegistrationPage& page) {
   if (lines.empty()) {
     return {};
   }
-  return section("Does it know how wrong it is?",
-                 table({"drawings", "method", "priors", "pose in 68 %", "in 95 %",
-                        "position in 68 %", "in 95 %", "Brier score"},
-                       lines) +
-                     "<p class=\"note\">How many of the true poses (position and heading) lie in "
-                     "the stated ellipsoids, and below how often a pose is within 0.5 m and 15 deg "
-                     "by how probable that was said to be.</p>" +
-                     charts);
+  return detail::section(
+      "Does it know how wrong it is?",
+      detail::results_table({"drawings", "method", "priors", "pose in 68 %", "in 95 %",
+                             "position in 68 %", "in 95 %", "Brier score"},
+                            lines) +
+          "<p class=\"note\">How many of the true poses (position and heading) lie in "
+          "the stated ellipsoids, and below how often a pose is within 0.5 m and 15 deg "
+          "by how probable that was said to be.</p>" +
+          charts);
 }
 
 std::string gallery(const std::string& title, const std::vector<RegistrationExample>& examples) {
@@ -228,7 +206,7 @@ std::string gallery(const std::string& title, const std::vector<RegistrationExam
     html += "<figure>" + example.svg + "<figcaption>" + escaped(example.caption) +
             "</figcaption></figure>";
   }
-  return section(title, html + "</div>");
+  return detail::section(title, html + "</div>");
 }
 
 }  // namespace
@@ -239,10 +217,11 @@ std::string registration_page_html(const RegistrationPage& page) {
          "gap:.8rem}.gallery figure{margin:0}.gallery svg{background:#fff}"
          "figcaption{font-size:.85rem;color:var(--soft)}</style><header><h1>" +
          escaped(page.title) + "</h1><p>" + escaped(page.caption) + "</p></header><main>" +
-         section("Errors", main_table(page)) + gallery("Typical", page.typical) +
+         detail::section("Errors", main_table(page)) + gallery("Typical", page.typical) +
          gallery("The worst", page.worst) +
-         section("Error by prior and by deformation", sweep_charts(page)) + calibration(page) +
-         section("Paired differences", difference_table(page)) + "</main>" + detail::close_page();
+         detail::section("Error by prior and by deformation", sweep_charts(page)) +
+         calibration(page) + detail::section("Paired differences", difference_table(page)) +
+         "</main>" + detail::close_page();
 }
 
 }  // namespace sketchloc

@@ -2,60 +2,22 @@
 
 #include <algorithm>
 #include <iterator>
-#include <numbers>
-#include <stdexcept>
 
-#include "datasets/sim/building.hpp"
-#include "datasets/sim/plan_generators.hpp"
 #include "eval/detail/text.hpp"
+#include "eval/simulated_drive.hpp"
 #include "motion/angles.hpp"
 #include "motion/validate.hpp"
 
 namespace sketchloc {
 namespace {
 
-constexpr std::uint64_t kPlanStream = 0x7AB1E1;  ///< no other part of the program draws from it
-constexpr double kSweepTurn_deg = 10.0;          ///< beside a swept shift
-constexpr double kSweepShift_m = 0.5;            ///< beside a swept turn
-constexpr int kAttempts = 20;
+constexpr std::uint64_t kSuite = 0x7AB1E1;
+constexpr double kSweepTurn_deg = 10.0;  ///< beside a swept shift
+constexpr double kSweepShift_m = 0.5;    ///< beside a swept turn
 
 const std::string kShiftPrefix = "shift ";
 const std::string kTurnPrefix = "turn ";
 const std::string kBendPrefix = "tps x ";
-
-/// Homes, offices and warehouses in turn; every other robot sees all around.
-struct PlanChoice {
-  BuildingKind kind;
-  LidarModel lidar;
-};
-
-PlanChoice choice_of(int plan) {
-  constexpr BuildingKind kKinds[] = {BuildingKind::Home, BuildingKind::Office,
-                                     BuildingKind::Warehouse};
-  PlanChoice choice{.kind = kKinds[plan % 3], .lidar = {}};
-  if (plan % 2 == 1) {
-    choice.lidar.field_of_view_rad = 2.0 * std::numbers::pi;
-    choice.lidar.beams = 361;
-  }
-  return choice;
-}
-
-DataSet drive_in(int plan, int warp, const PersonParams& person, double drive_m,
-                 std::uint64_t seed) {
-  const PlanChoice choice = choice_of(plan);
-  const DataSetParams params{
-      .person = person, .drive = {.length_m = drive_m}, .lidar = choice.lidar};
-  for (std::uint64_t attempt = 0; attempt < kAttempts; ++attempt) {
-    Rng rng = make_rng(seed, kPlanStream + static_cast<std::uint64_t>(plan), attempt);
-    const Building building = building_from_plan(make_plan(choice.kind, rng));
-    Rng warp_rng = make_rng(rng(), static_cast<std::uint64_t>(warp));
-    DataSetInBuilding made = generate_data_set(building, params, warp_rng());
-    if (made.status == DataSetInBuilding::Status::Made) {
-      return *std::move(made.data_set);
-    }
-  }
-  throw std::runtime_error("no building was found that the robot can drive through");
-}
 
 RegistrationTask task_of(const std::string& kind, int plan, int warp, const PersonParams& person,
                          const RegistrationSuiteParams& params, std::uint64_t seed) {
@@ -66,7 +28,10 @@ RegistrationTask task_of(const std::string& kind, int plan, int warp, const Pers
       .make =
           [=] {
             return make_registration_set(
-                name, kind, drive_in(plan, warp, person, params.drive_m, seed), params.set);
+                name, kind,
+                simulated_drive({.suite = kSuite, .plan = plan, .drawing = warp},
+                                {.person = person, .drive = {.length_m = params.drive_m}}, seed),
+                params.set);
           },
       .around_truth = {main_protocol(params)},
       .seed = make_rng(seed, static_cast<std::uint64_t>(plan), static_cast<std::uint64_t>(warp))()};

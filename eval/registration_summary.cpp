@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "eval/detail/page_table.hpp"
 #include "eval/detail/text.hpp"
 #include "eval/distributions.hpp"
 #include "motion/angles.hpp"
@@ -206,12 +207,7 @@ Json json_of(const RegistrationRow& row) {
 }
 
 std::string with_interval(const MeanOverSets& mean, double factor, int decimals) {
-  std::string text = detail::fixed(factor * mean.mean, decimals);
-  if (mean.interval) {
-    text += " [" + detail::fixed(factor * mean.interval->low, decimals) + ", " +
-            detail::fixed(factor * mean.interval->high, decimals) + "]";
-  }
-  return text;
+  return detail::with_interval(mean.mean, mean.interval, factor, decimals);
 }
 
 }  // namespace

@@ -96,6 +96,44 @@ TEST_F(AblateCommandEndToEnd, AsksAboutRecordedRuns) {
   EXPECT_THAT(result.out, HasSubstr("| home | chained | ours |"));
 }
 
+TEST_F(AblateCommandEndToEnd, ComparesWholeRuns) {
+  const auto run_suite = [&](const std::string& out, const std::string& jobs) {
+    return testing::run_command({SKETCHLOC_PROGRAM,
+                                 "ablate",
+                                 "--suite",
+                                 "filter",
+                                 "--methods",
+                                 "odometry,ours,mcl,mcl+both",
+                                 "--network",
+                                 "ours=" + in("ours.onnx"),
+                                 "--drives.plans",
+                                 "1",
+                                 "--drives.drawings",
+                                 "1",
+                                 "--drives.drive_m",
+                                 "3",
+                                 "--seeds",
+                                 "2",
+                                 "--jobs",
+                                 jobs,
+                                 "--out",
+                                 in(out)});
+  };
+  const CommandResult whole = run_suite("a", "1");
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const auto rows = nlohmann::json::parse(content_of(in("a/metrics.json")))["rows"];
+  ASSERT_EQ(rows.size(), 8U);  // tps and human
+  EXPECT_EQ(rows[0]["method"], "odometry");
+  EXPECT_EQ(rows[0]["trials"], 1);  // nothing in it is drawn
+  EXPECT_EQ(rows[3]["trials"], 2);
+  EXPECT_THAT(content_of(in("a/report.html")), HasSubstr("How long until it is lost?"));
+  EXPECT_FALSE(fs::exists(in("a.unfinished")));
+
+  const CommandResult other = run_suite("b", "2");
+  ASSERT_EQ(other.exit_code, 0) << other.err;
+  EXPECT_EQ(content_of(in("a/metrics.json")), content_of(in("b/metrics.json")));
+}
+
 TEST_F(AblateCommandEndToEnd, SaysWhatIsWrongWithItsInputs) {
   const auto refuses = [&](const std::vector<std::string>& more, const std::string& why) {
     const CommandResult result = run(more);
@@ -112,6 +150,22 @@ TEST_F(AblateCommandEndToEnd, SaysWhatIsWrongWithItsInputs) {
   refuses({"--network", in("ours.onnx")}, "METHOD=FILE");
   refuses({"--suite", "cooking"}, "registration");
   refuses({"--registration.prior_turn_deg", "500"}, "prior_turn_deg");
+}
+
+TEST_F(AblateCommandEndToEnd, SaysWhatIsWrongWithWholeRuns) {
+  const auto refuses = [&](const std::vector<std::string>& more, const std::string& why) {
+    std::vector<std::string> command = {SKETCHLOC_PROGRAM, "ablate", "--out", in("out")};
+    command.insert(command.end(), more.begin(), more.end());
+    const CommandResult result = testing::run_command(command);
+    EXPECT_NE(result.exit_code, 0);
+    EXPECT_THAT(result.err, HasSubstr(why));
+    EXPECT_FALSE(fs::exists(in("out")));
+    EXPECT_FALSE(fs::exists(in("out.unfinished")));
+  };
+  refuses({"--suite", "real", "--methods", "mcl"}, "nothing to run");
+  refuses({"--suite", "filter", "--methods", "none"}, "there is no none");
+  refuses({"--suite", "filter", "--methods", "mcl", "--drives.drive_m", "0"}, "drive_m");
+  refuses({"--suite", "filter", "--methods", "mcl", "--seeds", "0"}, "--seeds");
 }
 
 }  // namespace

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/parameter_options.hpp"
+#include "apps/run_file.hpp"
+#include "datasets/reference.hpp"
+#include "datasets/run.hpp"
+#include "datasets/sketch.hpp"
+#include "eval/filter_suite.hpp"
+#include "eval/localization.hpp"
+#include "eval/predictors.hpp"
+#include "eval/registration_suite.hpp"
+
+namespace sketchloc {
+
+/// What `sketchloc ablate` is told.
+struct AblateOptions {
+  std::string suite = "registration";
+  std::vector<std::string> methods;  ///< empty: all of the suite
+  std::vector<std::string> networks;
+  std::vector<std::string> sets;
+  std::uint64_t seed = 1;
+  int seeds = 5;
+  unsigned jobs = 0;
+  std::filesystem::path out;
+  bool force = false;
+  ParameterOptions parameters;
+};
+
+struct AblateParams {
+  RegistrationSuiteParams registration;
+  FilterSuiteParams drives;
+  LocalizationParams filter;  ///< its predictor is that of the registration suite too
+};
+
+template <typename Visitor>
+void visit_fields(AblateParams& params, Visitor&& visit) {
+  visit("registration", params.registration);
+  visit("drives", params.drives);
+  visit("filter", params.filter);
+}
+
+/// A recorded run to ask about, read when it is needed. Text: DRAWING,LOG,REFERENCE.csv[,NAME
+/// [,ALTERNATIVE.csv]]; NAME as KIND/NAME puts runs of one kind into one row.
+struct RecordedSet {
+  std::string name;
+  std::string kind;
+  std::filesystem::path drawing;
+  std::filesystem::path log;
+  std::filesystem::path reference;
+  std::filesystem::path alternative;  ///< empty: none
+
+  FilterData read() const;
+};
+
+/// The sets of --set; throws std::invalid_argument where a text is none or two have one name.
+std::vector<RecordedSet> recorded_sets(const AblateOptions& options);
+
+/// The network given for a registration; empty: none. Throws std::invalid_argument where a
+/// --network is no METHOD=FILE of a registration.
+std::filesystem::path network_given(const AblateOptions& options, const std::string& method);
+
+/// Whether a registration can run here; else says on stderr why it is left out.
+bool can_run(RegistrationMethod method, const std::string& name,
+             const std::filesystem::path& network);
+
+/// Everything that was given, for run.yaml.
+RunDescription description_of(const AblateOptions& options, const ConfigNode& parameters);
+
+/// The suites.
+void run_registration_suite(const AblateOptions& options);
+void run_filter_suite(const AblateOptions& options);
+
+}  // namespace sketchloc

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "eval/intervals.hpp"
+
+namespace sketchloc::detail {
+
+/// A part of a page under a heading; `body` is HTML.
+std::string section(const std::string& title, const std::string& body);
+
+/// A table of results that scrolls where it is wider than the page; all cells are plain text.
+std::string results_table(const std::vector<std::string>& heads,
+                          const std::vector<std::vector<std::string>>& lines);
+
+/// "12.3 [11.0, 14.1]" of a value and its interval, both times a factor.
+std::string with_interval(double value, const std::optional<Interval>& interval, double factor,
+                          int decimals);
+
+}  // namespace sketchloc::detail

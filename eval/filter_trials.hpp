@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "datasets/reference.hpp"
+#include "datasets/run.hpp"
+#include "datasets/sketch.hpp"
+#include "eval/localization.hpp"
+#include "eval/predictors.hpp"
+#include "eval/sketch_errors.hpp"
+
+namespace sketchloc {
+
+/// A row of the filter suites: what finds the robot, and what registers scans for it.
+struct FilterMethod {
+  std::string name;
+  Method method = Method::Mcl;
+  std::optional<RegistrationMethod> registration;
+  bool propose = false;
+  bool measure = false;
+};
+
+/// All that there are: `odometry`; `ours`, `chen20`, `affine` and `icp`, chained; `mcl` alone; and
+/// with registrations of ours to measure, to propose, or both: `mcl+measure`, `mcl+propose`,
+/// `mcl+both`.
+std::vector<FilterMethod> filter_methods();
+
+/// A robot in a drawing, with the truth.
+struct FilterData {
+  Sketch sketch;
+  Run run;
+  Reference reference;
+  std::vector<Reference> alternatives = {};  ///< other readings of the drawing that count too
+};
+
+/// A run to be found, made when it is needed.
+struct FilterTask {
+  std::string set;
+  std::string kind;  ///< of sets that make one row
+  std::function<FilterData()> make;
+};
+
+/// How far off one method with one seed was at the scored steps of one set.
+struct FilterTrial {
+  std::string set;
+  std::string kind;
+  std::string method;
+  std::uint64_t seed = 1;
+  std::vector<StepError> errors;
+};
+
+/// Throws std::runtime_error where the reference has no pose for the first scan.
+void check_start(const std::string& set, const FilterData& data);
+
+/// Finds the robot of a set by a method, from the reference's first pose. What the method switches
+/// on or off replaces what `params` say. Throws std::runtime_error where the set has no start.
+FilterTrial run_filter_trial(const FilterTask& task, const FilterData& data,
+                             const FilterMethod& method, const LocalizationParams& params,
+                             std::uint64_t seed, WarpPredictor* predictor);
+
+/// A trial as JSON, and back. Throws std::runtime_error where the text is not of a trial.
+std::string trial_json(const FilterTrial& trial);
+FilterTrial trial_from_json(const std::string& text);
+
+}  // namespace sketchloc
