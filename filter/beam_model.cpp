@@ -38,7 +38,9 @@ std::size_t BeamModel::observe(const Scan& scan) {
   return beams_.size();
 }
 
-std::optional<PreparedBeams> BeamModel::unbent(const Warp& warp) const {
+std::optional<PreparedBeams> BeamModel::unbent(const Registration& registration) const {
+  const Warp& warp = registration.warp;
+  const LocalWindow& window = registration.window;
   const std::optional<PlaneMapPoint> robot = warp.sketch_from_robot(Eigen::Vector2d::Zero());
   if (!robot || !(robot->jacobian.determinant() > 0.0)) {
     return std::nullopt;
@@ -46,7 +48,9 @@ std::optional<PreparedBeams> BeamModel::unbent(const Warp& warp) const {
   const Eigen::Matrix2d robot_from_sketch = robot->jacobian.inverse();
   std::vector<Beam> beams;
   for (const auto& [end, returned] : selected_) {
-    const std::optional<PlaneMapPoint> place = warp.sketch_from_robot(end);
+    const bool inside =
+        (end - window.centre_in_robot()).cwiseAbs().maxCoeff() <= 0.5 * window.side_m;
+    const auto place = inside ? warp.sketch_from_robot(end) : std::optional<PlaneMapPoint>();
     const bool known = place && place->value.allFinite();
     beams.push_back(
         beam_to(known ? Eigen::Vector2d(robot_from_sketch * (place->value - robot->value)) : end,

@@ -9,7 +9,7 @@
 #include "filter/particle_set.hpp"
 #include "filter/predict.hpp"
 #include "registration/range_table.hpp"
-#include "registration/warp.hpp"
+#include "registration/warp_predictor.hpp"
 
 namespace sketchloc {
 
@@ -40,9 +40,10 @@ class BeamModel {
   std::size_t observe(const Scan& scan);
 
   /// The observed beams as a registration unbends them: with its warp W and the warp's Jacobian J
-  /// at the robot, end point b becomes J^-1 (W(b) - W(0)). What is left of the drawing's
-  /// deformation is linear, as in the particles. None where the warp folds at the robot.
-  std::optional<PreparedBeams> unbent(const Warp& warp) const;
+  /// at the robot, end point b becomes J^-1 (W(b) - W(0)); beyond the registration's window, where
+  /// the warp guesses, it stays. What is left of the drawing's deformation is linear, as in the
+  /// particles. None where the warp folds at the robot.
+  std::optional<PreparedBeams> unbent(const Registration& registration) const;
 
   /// The same as `score` for such beams.
   void score(const ParticleSet& particles, const ParticleRange& range, const PreparedBeams& beams,

@@ -117,7 +117,7 @@ Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params, WarpPr
   }
   scores_.resize(most);
   unbent_scores_.resize(most);
-  if (predictor != nullptr) {
+  if (predictor != nullptr && (params.fusion.propose || params.fusion.measure)) {
     registrar_.emplace(sketch, *predictor, params.fusion);
   }
   parents_.resize(most);
@@ -184,7 +184,7 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
   report_.effective_particles = normalise(particles_).effective_particles;
   report_.particles = particles_.size();
   mode_finder_.find(particles_, report_.estimate);
-  if (report_.updated || report_.registered) {
+  if (report_.updated || (report_.registered && params_.fusion.propose)) {
     resample();
     recover();
   }
@@ -209,6 +209,7 @@ void Localizer::predict_all(const Se2& robot_from_next) {
   way_since_update_m_ += robot_from_next.translation().norm();
   turn_since_update_rad_ += std::abs(robot_from_next.yaw_rad());
   const bool proposes = report_.registered && params_.fusion.propose;
+  const double before = proposes ? weight_asked_about() : 0.0;
   for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, steps_ * kPurposes + kPredict, chunk);
     if (proposes) {
@@ -218,6 +219,25 @@ void Localizer::predict_all(const Se2& robot_from_next) {
       predict(particles_, range, robot_from_next, params_.predict, rng);
     }
   });
+  if (proposes) {
+    // Nobody asked about the others: they keep their share of the whole weight.
+    const double change = weight_asked_about() / before;
+    if (change > 0.0 && std::isfinite(change)) {
+      const auto log_change = static_cast<float>(std::log(change));
+      for (std::size_t i = 0; i < particles_.size(); ++i) {
+        particles_.log_weight[i] += likelihood_of_[i] == kNoLikelihood ? log_change : 0.0F;
+      }
+    }
+  }
+}
+
+/// The weight of the particles that belong to a mode with a registration.
+double Localizer::weight_asked_about() const {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < particles_.size(); ++i) {
+    sum += likelihood_of_[i] == kNoLikelihood ? 0.0 : std::exp(particles_.log_weight[i]);
+  }
+  return sum;
 }
 
 /// Registers, if it is time to; says whether that told anything.
@@ -250,7 +270,7 @@ void Localizer::weigh(std::size_t beams) {
     weight_sum += weight;
     score_sum += weight * scores_[i];
   }
-  if (report_.registered && params_.fusion.measure) {
+  if (report_.registered && params_.fusion.measure && exponent > 0.0) {
     add_unbent_scores(exponent);
   }
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -264,8 +284,8 @@ void Localizer::weigh(std::size_t beams) {
   updated_once_ = true;
 }
 
-/// The scan as it is and as its particle's registration unbends it, as a mixture of both: a wrong
-/// warp makes it no worse.
+/// The scan as it is and as its particle's registration unbends it, as a mixture of both by how
+/// probable it is that the warp is right: a wrong one costs little.
 void Localizer::add_unbent_scores(double exponent) {
   const auto* model = std::get_if<BeamModel>(&model_);
   if (model == nullptr) {
@@ -273,7 +293,8 @@ void Localizer::add_unbent_scores(double exponent) {
   }
   const std::span<const Registration> registrations = registrar_->registrations();
   for (std::size_t which = 0; which < registrations.size(); ++which) {
-    const std::optional<PreparedBeams> beams = model->unbent(registrations[which].warp);
+    const double share = 0.5 * registrations[which].inlier_probability;
+    const std::optional<PreparedBeams> beams = model->unbent(registrations[which]);
     if (!beams) {
       continue;
     }
@@ -284,9 +305,9 @@ void Localizer::add_unbent_scores(double exponent) {
           const double bent = exponent * scores_[i];
           const double unbent = exponent * unbent_scores_[i];
           const double most = std::max(bent, unbent);
-          scores_[i] = static_cast<float>(
-              (most + std::log(0.5 * (std::exp(bent - most) + std::exp(unbent - most)))) /
-              exponent);
+          scores_[i] = static_cast<float>((most + std::log((1.0 - share) * std::exp(bent - most) +
+                                                           share * std::exp(unbent - most))) /
+                                          exponent);
         }
       }
     });

@@ -143,6 +143,7 @@ class Localizer {
  private:
   void forget();
   void predict_all(const Se2& robot_from_next);
+  double weight_asked_about() const;
   bool look(const Se2& robot_from_next);
   void add_unbent_scores(double exponent);
   std::size_t observe(const Scan& scan);

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
@@ -11,12 +12,14 @@ namespace sketchloc {
 
 namespace {
 
+constexpr double kNoIdea = 100.0;  ///< of a strain: more than any drawing has
+
 /// The strain (axial, diagonal) of the warp's Jacobian at the robot: J J^T = scale^2 exp(2 strain).
 /// None where it folds.
-Eigen::Vector2d strain_of(const Warp& warp) {
+std::optional<Eigen::Vector2d> strain_of(const Warp& warp) {
   const std::optional<PlaneMapPoint> robot = warp.sketch_from_robot(Eigen::Vector2d::Zero());
   if (!robot || !(robot->jacobian.determinant() > 0.0)) {
-    return Eigen::Vector2d::Zero();
+    return std::nullopt;
   }
   const Eigen::Matrix2d square = robot->jacobian * robot->jacobian.transpose();
   const Eigen::Vector2d deviator(0.5 * (square(0, 0) - square(1, 1)), square(0, 1));
@@ -31,7 +34,7 @@ Eigen::Vector2d strain_of(const Warp& warp) {
 
 void validate(const PoseTrust& trust) {
   require_above("inflation", trust.inflation, 0.0);
-  require_at_least("max_ratio", trust.max_ratio, 1.0);
+  require_at_least("peak", trust.peak, 1.0);
   require_in_range("max_probability", trust.max_probability, 1e-6, 1.0 - 1e-6);
   require_above("min_position_m", trust.min_position_m, 0.0);
   require_above("min_heading_rad", trust.min_heading_rad, 0.0);
@@ -51,12 +54,14 @@ PoseLikelihood pose_likelihood(const Registration& registration, const PoseTrust
   Eigen::Matrix4d sketch_from_error = Eigen::Matrix4d::Identity();
   sketch_from_error.topLeftCorner<2, 2>() = pose.scaled_rotation_matrix();
   const double probability = std::min(registration.inlier_probability, trust.max_probability);
+  const std::optional<Eigen::Vector2d> strain = strain_of(registration.warp);
+  const double outlier = std::pow(1.0 - probability, share);
   return {.mean = {pose.x(), pose.y(), pose.yaw_rad(), std::log(pose.scale())},
           .covariance = sketch_from_error * covariance * sketch_from_error.transpose() / share,
-          .strain = strain_of(registration.warp),
-          .strain_sigma = trust.strain_sigma / std::sqrt(share),
-          .outlier = 1.0 - probability,
-          .inlier = probability * std::pow(trust.max_ratio, share)};
+          .strain = strain.value_or(Eigen::Vector2d::Zero()),
+          .strain_sigma = strain ? trust.strain_sigma / std::sqrt(share) : kNoIdea,
+          .outlier = outlier,
+          .inlier = std::pow(1.0 - probability + probability * trust.peak, share) - outlier};
 }
 
 }  // namespace sketchloc

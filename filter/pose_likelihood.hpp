@@ -23,8 +23,9 @@ struct PoseLikelihood {
 
 /// How far a registration is believed.
 struct PoseTrust {
-  double inflation = 1.0;         ///< of its standard deviations, > 0
-  double max_ratio = 100.0;       ///< of the likelihoods of a right pose and a wrong one, >= 1
+  double inflation = 1.0;  ///< of its standard deviations, > 0
+  double peak =
+      5.0;  ///< of its likelihood at the pose it states, where it is right; 1: where wrong
   double max_probability = 0.95;  ///< no registration is righter than this, in (0, 1)
   double min_position_m = 0.05;   ///< what no registration tells, 1-sigma, > 0
   double min_heading_rad = 0.02;
@@ -35,7 +36,7 @@ struct PoseTrust {
 template <typename Visitor>
 void visit_fields(PoseTrust& trust, Visitor&& visit) {
   visit("inflation", trust.inflation);
-  visit("max_ratio", trust.max_ratio);
+  visit("peak", trust.peak);
   visit("max_probability", trust.max_probability);
   visit("min_position_m", trust.min_position_m);
   visit("min_heading_rad", trust.min_heading_rad);
@@ -46,9 +47,9 @@ void visit_fields(PoseTrust& trust, Visitor&& visit) {
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const PoseTrust& trust);
 
-/// `share`: how much of the registration is new, in (0, 1]: of the rest it knows as much as the one
-/// before, so its Gaussian is widened and its ratio lowered to the likelihood's power of this. The
-/// registration has a covariance.
+/// `share`: how much of the registration is new, in (0, 1]; the rest errs as the one before did, so
+/// the likelihood counts as its power of this: floor and peak to that power, the Gaussian widened.
+/// The registration has a covariance.
 PoseLikelihood pose_likelihood(const Registration& registration, const PoseTrust& trust,
                                double share);
 

@@ -53,21 +53,21 @@ float wrapped(float angle_rad) {
   return angle_rad - kTurn * std::nearbyint(angle_rad / kTurn);
 }
 
-/// J of ParticleSet.
-Eigen::Matrix2f local_map(const ParticleSet& particles, std::size_t i) {
+/// J of ParticleSet applied to a small step in the robot frame.
+Eigen::Vector2f step_in_sketch(const ParticleSet& particles, std::size_t i,
+                               const Eigen::Vector2f& step_in_robot_m) {
   const float c = std::cos(particles.heading_rad[i]);
   const float s = std::sin(particles.heading_rad[i]);
+  const float x = c * step_in_robot_m.x() - s * step_in_robot_m.y();
+  const float y = s * step_in_robot_m.x() + c * step_in_robot_m.y();
   const float axial = particles.axial_strain[i];
   const float diagonal = particles.diagonal_strain[i];
   const float size = std::sqrt(axial * axial + diagonal * diagonal);
   const float scale = std::exp(particles.log_scale[i]);
   const float even = scale * std::cosh(size);
   const float odd = size > 1e-4F ? scale * std::sinh(size) / size : scale;
-  Eigen::Matrix2f strain;
-  strain << even + odd * axial, odd * diagonal, odd * diagonal, even - odd * axial;
-  Eigen::Matrix2f rotation;
-  rotation << c, -s, s, c;
-  return strain * rotation;
+  return {(even + odd * axial) * x + odd * diagonal * y,
+          odd * diagonal * x + (even - odd * axial) * y};
 }
 
 /// Draws one particle's motion after another.
@@ -93,7 +93,7 @@ class Mover {
     const Eigen::Vector2f slip_m(draw(noise_.slip_m), draw(noise_.slip_m));
     const Eigen::Vector2f step_in_robot_m = noise_.way_m + noise_.along * draw(noise_.along_m) +
                                             across_ * draw(noise_.across_m) + slip_m;
-    const Eigen::Vector2f step_px = local_map(particles, i) * step_in_robot_m;
+    const Eigen::Vector2f step_px = step_in_sketch(particles, i, step_in_robot_m);
     particles.x_px[i] += step_px.x();
     particles.y_px[i] += step_px.y();
     particles.heading_rad[i] =
@@ -127,7 +127,9 @@ struct Motion {
 
 Motion motion_of(const ParticleSet& particles, std::size_t i, const Mover& mover) {
   const StepNoise& noise = mover.noise();
-  const Eigen::Matrix2f map = local_map(particles, i);
+  Eigen::Matrix2f map;
+  map.col(0) = step_in_sketch(particles, i, Eigen::Vector2f::UnitX());
+  map.col(1) = step_in_sketch(particles, i, Eigen::Vector2f::UnitY());
   const Eigen::Vector2f step_px = map * noise.way_m;
   Motion motion;
   motion.mean = pose_of(particles, i);
@@ -267,15 +269,10 @@ void propose(ParticleSet& particles, const ParticleRange& range, const Se2& robo
              const PredictParams& params, std::span<const PoseLikelihood> likelihoods,
              std::span<const std::int8_t> likelihood_of, Rng& rng) {
   const std::vector<PreparedLikelihood> said = prepared(likelihoods);
-  double none = 0.0;
-  for (const PoseLikelihood& likelihood : likelihoods) {
-    none += std::log(likelihood.outlier);
-  }
   Mover mover(robot_from_next, params, rng);
   for (std::size_t i = range.begin; i < range.end; ++i) {
     if (likelihood_of[i] == kNoLikelihood) {
       mover.move(particles, i);
-      particles.log_weight[i] += static_cast<float>(none);
     } else {
       const auto which = static_cast<std::size_t>(likelihood_of[i]);
       particles.log_weight[i] +=

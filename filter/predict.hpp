@@ -76,9 +76,9 @@ inline constexpr std::int8_t kNoLikelihood = -1;
 
 /// The same, knowing what registrations say about where the particles are now: each particle is
 /// drawn from the product of its motion and its likelihood, the optimal proposal [Doucet00], and
-/// weighted by how probable that likelihood was for it. `likelihood_of[i]` is the index of particle
-/// i's; for all others it counts as an outlier. Exact: the weighted particles represent motion
-/// times likelihood (docs/filter.md).
+/// weighted by how probable that likelihood was for it; the other likelihoods count as outliers.
+/// `likelihood_of[i]` is the index of particle i's; a particle without one is moved as by predict.
+/// Exact: the weighted particles represent motion times likelihood (docs/filter.md).
 void propose(ParticleSet& particles, const ParticleRange& range, const Se2& robot_from_next,
              const PredictParams& params, std::span<const PoseLikelihood> likelihoods,
              std::span<const std::int8_t> likelihood_of, Rng& rng);

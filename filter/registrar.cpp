@@ -10,9 +10,10 @@
 namespace sketchloc {
 
 void validate(const FusionParams& fusion) {
-  require_at_least("way_m", fusion.way_m, 0.0);
+  require_above("way_m", fusion.way_m, 0.0);
   require_above("turn_rad", fusion.turn_rad, 0.0);
   require_above("independent_way_m", fusion.independent_way_m, 0.0);
+  require_above("independent_turn_rad", fusion.independent_turn_rad, 0.0);
   require_in_range("max_modes", fusion.max_modes, 1, 16);
   require_above("mode_radius_m", fusion.mode_radius_m, 0.0);
   require_in_range("mode_radius_rad", fusion.mode_radius_rad, 0.0, std::numbers::pi);
@@ -55,8 +56,10 @@ void Registrar::look(std::span<const Mode> modes, const Se2& then_from_robot) {
     priors.push_back(mode.sketch_from_robot * then_from_robot);
   }
   const auto found = predictor_->predict(recent_.placed(), cropper_, priors);
-  const double share =
-      looked_once_ ? std::clamp(way_since_m_ / params_.independent_way_m, 0.01, 1.0) : 1.0;
+  const double share = looked_once_
+                           ? std::min(1.0, way_since_m_ / params_.independent_way_m +
+                                               turn_since_rad_ / params_.independent_turn_rad)
+                           : 1.0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i] && found[i]->covariance && found[i]->covariance->allFinite()) {
       modes_.push_back(modes[i].sketch_from_robot);
@@ -64,9 +67,11 @@ void Registrar::look(std::span<const Mode> modes, const Se2& then_from_robot) {
       likelihoods_.push_back(pose_likelihood(*found[i], params_.trust, share));
     }
   }
-  looked_once_ = true;
-  way_since_m_ = 0.0;
-  turn_since_rad_ = 0.0;
+  if (!likelihoods_.empty()) {
+    looked_once_ = true;
+    way_since_m_ = 0.0;
+    turn_since_rad_ = 0.0;
+  }
 }
 
 void Registrar::assign(const ParticleSet& particles,

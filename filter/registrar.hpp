@@ -21,13 +21,14 @@ namespace sketchloc {
 struct FusionParams {
   bool propose = true;    ///< they tell where the particles may be
   bool measure = true;    ///< they unbend the scan, which is scored beside the scan as it is
-  double way_m = 0.4;     ///< between registrations, >= 0
+  double way_m = 0.4;     ///< between registrations, > 0
   double turn_rad = 0.5;  ///< or turned by this much, > 0
   double independent_way_m =
-      2.0;                       ///< way after which a registration knows nothing of the last, > 0
-  int max_modes = 2;             ///< registered, the heaviest ones, in [1, 16]
-  double mode_radius_m = 3.0;    ///< a particle this near to a mode belongs to it, > 0
-  double mode_radius_rad = 0.8;  ///< and headed this alike, > 0
+      2.0;  ///< way after which a registration knows nothing of the last, > 0
+  double independent_turn_rad = 3.0;  ///< or turned by this much, > 0
+  int max_modes = 2;                  ///< registered, the heaviest ones, in [1, 16]
+  double mode_radius_m = 3.0;         ///< a particle this near to a mode belongs to it, > 0
+  double mode_radius_rad = 0.8;       ///< and headed this alike, > 0
   PoseTrust trust{};
   RecentScansParams recent{};  ///< what is registered
 };
@@ -39,6 +40,7 @@ void visit_fields(FusionParams& fusion, Visitor&& visit) {
   visit("way_m", fusion.way_m);
   visit("turn_rad", fusion.turn_rad);
   visit("independent_way_m", fusion.independent_way_m);
+  visit("independent_turn_rad", fusion.independent_turn_rad);
   visit("max_modes", fusion.max_modes);
   visit("mode_radius_m", fusion.mode_radius_m);
   visit("mode_radius_rad", fusion.mode_radius_rad);

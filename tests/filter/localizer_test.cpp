@@ -199,6 +199,68 @@ TEST(Localizer, ComesBackAfterBeingCarriedToAnotherRoom) {
   EXPECT_LT(error_px.norm() / kPxPerM, 1.0);
 }
 
+/// Finds every pose as the drive has it.
+class KnowsTheWay final : public WarpPredictor {
+ public:
+  explicit KnowsTheWay(const Drive& drive) : drive_(drive) {}
+
+  std::vector<std::optional<Registration>> predict(std::span<const PlacedScan> submap,
+                                                   const SketchCropper&,
+                                                   std::span<const Sim2> priors) override {
+    const auto step = static_cast<std::size_t>(submap.front().scan->time_s);
+    const Sim2& pose = drive_.sketch_from_robot[step];
+    const std::vector<Eigen::Vector2d> points = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}};
+    std::vector<Eigen::Vector2d> places;
+    for (const Eigen::Vector2d& point : points) {
+      places.push_back(pose * point);
+    }
+    ++looks;
+    return {priors.size(),
+            Registration{.warp = *Warp::from_robot_points(points, places),
+                         .sketch_from_robot = pose,
+                         .covariance = Eigen::Matrix4d(0.04 * Eigen::Matrix4d::Identity()),
+                         .inlier_probability = 0.9}};
+  }
+
+  int looks = 0;
+
+ private:
+  const Drive& drive_;
+};
+
+TEST(Localizer, FollowsRegistrationsTheSameAtAnyNumberOfThreads) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  const Sim2 wrong_start = drive.sketch_from_robot.front() * Se2::from_xy_yaw(0.5, -0.5, 0.1);
+  std::vector<std::vector<StepReport>> all;
+  double alone_m = 0.0;
+  double helped_m = 0.0;
+  for (const int jobs : {1, 4}) {
+    LocalizerParams params = small_params();
+    params.beams.exponent = 1e-6;  // the beams say nothing
+    params.jobs = jobs;
+    params.fusion.measure = true;
+    KnowsTheWay predictor(drive);
+    Localizer localizer(sketch, params, &predictor);
+    localizer.start_at(wrong_start);
+    all.push_back(localize(localizer, drive));
+    EXPECT_GT(predictor.looks, 10);
+  }
+  LocalizerParams params = small_params();
+  params.beams.exponent = 1e-6;
+  Localizer alone(sketch, params);
+  alone.start_at(wrong_start);
+  const std::vector<StepReport> reports = localize(alone, drive);
+  for (std::size_t i = 0; i < reports.size(); ++i) {
+    const Eigen::Vector2d truth = drive.sketch_from_robot[i].translation();
+    EXPECT_EQ(all[0][i].estimate.sketch_from_robot.translation(),
+              all[1][i].estimate.sketch_from_robot.translation());
+    helped_m += (all[0][i].estimate.sketch_from_robot.translation() - truth).norm() / kPxPerM;
+    alone_m += (reports[i].estimate.sketch_from_robot.translation() - truth).norm() / kPxPerM;
+  }
+  EXPECT_LT(helped_m, 0.5 * alone_m);
+}
+
 TEST(Localizer, TracksWithinCentimetresOnAMapInTrueProportions) {
   Sketch map = two_rooms();
   map.px_per_m = kPxPerM;

@@ -63,13 +63,14 @@ TEST(PoseLikelihood, SaysLessWhereItsScansAreOld) {
   const PoseLikelihood part = pose_likelihood(registration, trust, 0.25);
   EXPECT_NEAR(part.covariance(0, 0), 4.0 * whole.covariance(0, 0), 1e-6);
   EXPECT_NEAR(part.strain_sigma, 2.0 * whole.strain_sigma, 1e-9);
-  EXPECT_NEAR(whole.inlier, 0.8 * trust.max_ratio, 1e-9);
-  EXPECT_NEAR(part.inlier, 0.8 * std::pow(trust.max_ratio, 0.25), 1e-9);
+  EXPECT_NEAR(whole.inlier, 0.8 * trust.peak, 1e-9);
+  EXPECT_NEAR(part.outlier, std::pow(0.2, 0.25), 1e-9);
+  EXPECT_NEAR(part.outlier + part.inlier, std::pow(0.2 + 0.8 * trust.peak, 0.25), 1e-9);
 }
 
 TEST(PoseTrust, RefusesWhatIsOutOfRange) {
   EXPECT_NO_THROW(validate(PoseTrust{}));
-  EXPECT_THROW(validate(PoseTrust{.max_ratio = 0.5}), std::invalid_argument);
+  EXPECT_THROW(validate(PoseTrust{.peak = 0.5}), std::invalid_argument);
   EXPECT_THROW(validate(PoseTrust{.max_probability = 1.0}), std::invalid_argument);
   EXPECT_THROW(validate(PoseTrust{.strain_sigma = 0.0}), std::invalid_argument);
 }

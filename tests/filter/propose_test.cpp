@@ -189,6 +189,34 @@ TEST(ProposeStatistical, KeepsTheMotionWhereTheRegistrationIsAnOutlier) {
   EXPECT_NEAR(particles.log_weight[0], std::log(0.25), 1e-5);
 }
 
+TEST(ProposeStatistical, MixesMotionAndProductByWhatTheyAreWorth) {
+  // As much evidence for an outlier as for an inlier: half of the particles follow each.
+  ParticleSet particles = particles_at_origin();
+  const std::vector<std::int8_t> first(kCount, 0);
+  PoseLikelihood likelihood = some_likelihood();
+  likelihood.mean[0] = 1.6;
+  const Answer answer = exact_answer(predicted(), likelihood);
+  likelihood.outlier = answer.evidence;
+  Rng rng = make_rng(10);
+  propose(particles, {0, kCount}, kStep, noisy_motion(), {&likelihood, 1}, first, rng);
+  const double between = 0.5 * (answer.posterior.mean[0] - predicted().mean[0]);
+  Gaussian mixture;
+  mixture.mean = 0.5 * (answer.posterior.mean + predicted().mean);
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const float x : particles.x_px) {
+    sum += x;
+    squares += (x - mixture.mean[0]) * (x - mixture.mean[0]);
+  }
+  const double variance =
+      0.5 * (answer.posterior.covariance(0, 0) + predicted().covariance(0, 0)) + between * between;
+  EXPECT_NEAR(sum / kCount, mixture.mean[0],
+              kStandardErrors * std::sqrt(variance / static_cast<double>(kCount)));
+  EXPECT_NEAR(squares / kCount, variance,
+              kStandardErrors * variance * std::sqrt(3.0 / static_cast<double>(kCount)));
+  EXPECT_NEAR(particles.log_weight[0], std::log(2.0 * answer.evidence), 1e-4);
+}
+
 TEST(Propose, TakesTheOthersForOutliers) {
   ParticleSet particles = particles_at_origin();
   std::vector<std::int8_t> which(kCount, kNoLikelihood);
@@ -198,7 +226,7 @@ TEST(Propose, TakesTheOthersForOutliers) {
   likelihoods[1].outlier = 0.5;
   Rng rng = make_rng(8);
   propose(particles, {0, 2}, kStep, noisy_motion(), likelihoods, which, rng);
-  EXPECT_NEAR(particles.log_weight[0], std::log(0.2 * 0.5), 1e-5);
+  EXPECT_EQ(particles.log_weight[0], 0.0F);  // nobody asked about it
   const double fit = exact_answer(predicted(), likelihoods[1]).evidence;
   EXPECT_NEAR(particles.log_weight[1], std::log(0.2 * (0.5 + fit)), 1e-4);
 }
