@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
-#include <map>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -92,13 +92,10 @@ std::string stamps_of(const AblateOptions& options) {
 
 /// Throws std::invalid_argument where two have one name.
 void check_names(const std::vector<FilterTask>& tasks, const std::vector<FilterMethod>& methods) {
+  std::vector<std::string> sets;
+  std::ranges::transform(tasks, std::back_inserter(sets), &FilterTask::set);
+  check_set_names(sets);
   std::set<std::string> names;
-  for (const FilterTask& task : tasks) {
-    if (!names.insert(task.set).second) {
-      throw std::invalid_argument("--set: there are two runs of the name " + task.set);
-    }
-  }
-  names.clear();
   for (const FilterMethod& method : methods) {
     if (!names.insert(method.name).second) {
       throw std::invalid_argument("--methods: " + method.name + " is there twice");

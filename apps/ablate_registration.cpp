@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -107,7 +108,7 @@ class ExampleMaker {
  public:
   ExampleMaker(const std::vector<RegistrationTask>& tasks, const NamedMethod& method,
                const NetworkPredictorParams& params)
-      : tasks_(tasks), predictors_({method}, params) {}
+      : tasks_(tasks), predictors_({method}, params), window_(params.window) {}
 
   RegistrationExample operator()(const RegistrationTrial& trial) {
     const auto task = std::ranges::find(tasks_, trial.set, &RegistrationTask::set);
@@ -128,12 +129,13 @@ class ExampleMaker {
                                      .prior_sketch_from_robot = prior,
                                      .registration = found ? &*found : nullptr,
                                      .true_sketch_from_robot = step.sketch_from_robot,
-                                     .window = found ? found->window : LocalWindow{}})};
+                                     .window = found ? found->window : window_})};
   }
 
  private:
   const std::vector<RegistrationTask>& tasks_;
   Predictors predictors_;
+  LocalWindow window_;  ///< shown where nothing was found
   std::map<std::string, RegistrationSet> sets_;
 };
 
@@ -150,6 +152,9 @@ class RegistrationAblation {
       tasks_.push_back(
           recorded_task(recorded, params_.registration, make_rng(options.seed, index++)()));
     }
+    std::vector<std::string> sets;
+    std::ranges::transform(tasks_, std::back_inserter(sets), &RegistrationTask::set);
+    check_set_names(sets);
     if (tasks_.empty() || methods_.empty()) {
       throw std::invalid_argument(
           "there is nothing to run: give --registration.plans above 0 or a --set, and a method");

@@ -62,15 +62,20 @@ FilterData RecordedSet::read() const {
 
 std::vector<RecordedSet> recorded_sets(const AblateOptions& options) {
   std::vector<RecordedSet> sets;
-  std::set<std::string> names;
   for (const std::string& text : options.sets) {
     sets.push_back(recorded_set(text));
-    if (!names.insert(sets.back().name).second) {
-      throw std::invalid_argument("--set: there are two runs of the name " + sets.back().name +
+  }
+  return sets;
+}
+
+void check_set_names(const std::vector<std::string>& names) {
+  std::set<std::string> seen;
+  for (const std::string& name : names) {
+    if (!seen.insert(name).second) {
+      throw std::invalid_argument("--set: there are two runs of the name " + name +
                                   "; give DRAWING,LOG,REFERENCE.csv,NAME");
     }
   }
-  return sets;
 }
 
 fs::path network_given(const AblateOptions& options, const std::string& method) {

@@ -59,7 +59,10 @@ struct RecordedSet {
   FilterData read() const;
 };
 
-/// The sets of --set; throws std::invalid_argument where a text is none or two have one name.
+/// Throws std::invalid_argument where two sets, simulated or recorded, have one name.
+void check_set_names(const std::vector<std::string>& names);
+
+/// The sets of --set; throws std::invalid_argument where a text is none.
 std::vector<RecordedSet> recorded_sets(const AblateOptions& options);
 
 /// The network given for a registration; empty: none. Throws std::invalid_argument where a

@@ -60,12 +60,12 @@ std::string difference_table(std::span<const FilterDifference> differences) {
                      text_of(difference.share_within_2_m, 100.0, 0)});
   }
   return detail::results_table({"runs", "methods", "mean error, cm", "within 2 m, points"}, lines) +
-         "<p class=\"note\">On the same runs with the same seeds.</p>";
+         "<p class=\"note\">On the same runs, over all seeds of each method.</p>";
 }
 
 /// One chart for each kind, a curve for each method.
 std::string charts(std::span<const FilterRow> rows, const std::string& what, double y_high,
-                   const std::string& unit, double factor,
+                   const std::string& unit,
                    const std::vector<std::pair<double, double>> FilterRow::*curve) {
   std::vector<std::string> kinds;
   std::vector<std::string> methods;
@@ -89,7 +89,7 @@ std::string charts(std::span<const FilterRow> rows, const std::string& what, dou
           static_cast<std::size_t>(std::ranges::find(methods, row.method) - methods.begin());
       detail::Curve drawn{.name = row.method, .colour = kColours[colour % kColours.size()]};
       for (const auto& [x, y] : row.*curve) {
-        drawn.points.emplace_back(x, std::min(factor * y, y_high));
+        drawn.points.emplace_back(x, std::min(y, y_high));
         chart.x_high = std::max(chart.x_high, x);
       }
       chart.curves.push_back(std::move(drawn));
@@ -108,11 +108,10 @@ std::string filter_page_html(const std::string& title, const std::string& captio
   return detail::open_page(title) + "<header><h1>" + detail::escaped(title) + "</h1><p>" +
          detail::escaped(caption) + "</p></header><main>" +
          detail::section("Errors", main_table(rows)) +
-         detail::section(
-             "How long until it is lost?",
-             charts(rows, "share not lost yet", 1.0, "0 to 1", 1.0, &FilterRow::survival)) +
+         detail::section("How long until it is lost?",
+                         charts(rows, "share not lost yet", 1.0, "0 to 1", &FilterRow::survival)) +
          detail::section("Error along the way",
-                         charts(rows, "median error (cut off at 4 m)", kMostShown_m, "m", 1.0,
+                         charts(rows, "median error (cut off at 4 m)", kMostShown_m, "m",
                                 &FilterRow::error_by_way)) +
          (differences.empty()
               ? std::string()

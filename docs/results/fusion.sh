@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # Re-makes the figures of docs/results/fusion.md: the filter with and without registrations, beside single
 # registrations in a chain. The real drawings need the development data in $SKETCHLOC_DATA.
-# Usage: docs/results/fusion.sh OUT_DIR [SEEDS_REAL [SEEDS_SIMULATED]]
+# Usage: docs/results/fusion.sh OUT_DIR [SEEDS_REAL [SEEDS_SIMULATED [OPTIONS OF ABLATE FOR THE SIMULATED...]]]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 sketchloc=${SKETCHLOC:-$here/build/release/apps/sketchloc}
 data=${SKETCHLOC_DATA:-$here/../shared/data}
-out=${1:?usage: fusion.sh OUT_DIR [SEEDS_REAL [SEEDS_SIMULATED]]}
+out=${1:?usage: fusion.sh OUT_DIR [SEEDS_REAL [SEEDS_SIMULATED [OPTIONS...]]]}
 mkdir -p "$out"
 
 if [ -d "$data" ]; then
@@ -20,4 +20,4 @@ if [ -d "$data" ]; then
 else
   echo "fusion.sh: no $data; the real drawings are left out" >&2
 fi
-"$sketchloc" ablate --suite filter --seeds "${3:-5}" --out "$out/filter" --force
+"$sketchloc" ablate --suite filter --seeds "${3:-5}" --out "$out/filter" --force "${@:4}"
