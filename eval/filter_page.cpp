@@ -12,6 +12,7 @@ namespace sketchloc {
 namespace {
 
 using detail::fixed;
+using detail::with_interval;
 
 constexpr double kDegrees = deg_from_rad(1.0);
 constexpr std::array<detail::Colour, 9> kColours = {{{110, 110, 118},
@@ -24,20 +25,18 @@ constexpr std::array<detail::Colour, 9> kColours = {{{110, 110, 118},
                                                      {0, 100, 190},
                                                      {20, 20, 24}}};
 
-std::string text_of(const FilterFigure& figure, double factor, int decimals) {
-  return detail::with_interval(figure.value, figure.interval, factor, decimals);
-}
-
 std::string main_table(std::span<const FilterRow> rows) {
   std::vector<std::vector<std::string>> lines;
   for (const FilterRow& row : rows) {
-    lines.push_back(
-        {row.kind, row.method, std::to_string(row.sets), std::to_string(row.trials),
-         text_of(row.mean_error_m, 100.0, 0), text_of(row.median_error_m, 100.0, 0),
-         text_of(row.mean_heading_rad, kDegrees, 1), text_of(row.share_within_1_m, 100.0, 0),
-         text_of(row.share_within_2_m, 100.0, 0), text_of(row.share_ever_lost, 100.0, 0),
-         text_of(row.share_lost_at_end, 100.0, 0),
-         row.nees_inside_95 ? fixed(100.0 * *row.nees_inside_95, 0) : ""});
+    lines.push_back({row.kind, row.method, std::to_string(row.sets), std::to_string(row.trials),
+                     with_interval(row.mean_error_m, 100.0, 0),
+                     with_interval(row.median_error_m, 100.0, 0),
+                     with_interval(row.mean_heading_rad, kDegrees, 1),
+                     with_interval(row.share_within_1_m, 100.0, 0),
+                     with_interval(row.share_within_2_m, 100.0, 0),
+                     with_interval(row.share_ever_lost, 100.0, 0),
+                     with_interval(row.share_lost_at_end, 100.0, 0),
+                     row.nees_inside_95 ? fixed(100.0 * *row.nees_inside_95, 0) : ""});
   }
   return detail::results_table(
              {"runs", "method", "sets", "n", "mean cm", "median cm", "heading deg", "in 1 m %",
@@ -56,8 +55,8 @@ std::string difference_table(std::span<const FilterDifference> differences) {
   std::vector<std::vector<std::string>> lines;
   for (const FilterDifference& difference : differences) {
     lines.push_back({difference.kind, difference.method + " minus " + difference.other,
-                     text_of(difference.mean_error_m, 100.0, 0),
-                     text_of(difference.share_within_2_m, 100.0, 0)});
+                     with_interval(difference.mean_error_m, 100.0, 0),
+                     with_interval(difference.share_within_2_m, 100.0, 0)});
   }
   return detail::results_table({"runs", "methods", "mean error, cm", "within 2 m, points"}, lines) +
          "<p class=\"note\">On the same runs, over all seeds of each method.</p>";

@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "eval/detail/grouped.hpp"
 #include "eval/detail/page_table.hpp"
 #include "eval/detail/text.hpp"
 #include "eval/distributions.hpp"
@@ -13,6 +14,7 @@
 namespace sketchloc {
 namespace {
 
+using detail::with_interval;
 using Json = nlohmann::ordered_json;
 using Trials = std::vector<const FilterTrial*>;
 using Measure = std::function<double(const FilterTrial&)>;
@@ -30,52 +32,6 @@ std::vector<double> errors_m(const FilterTrial& trial) {
 
 double mean_error_m(const FilterTrial& trial) { return summarize(errors_m(trial))->mean; }
 double within_2_m(const FilterTrial& trial) { return share_within(errors_m(trial), 2.0); }
-
-double mean_of(std::span<const double> values) { return summarize(values)->mean; }
-
-/// Mean over the trials; its interval from the means of the sets.
-FilterFigure mean_over_sets(const Trials& trials, const Measure& measure, Rng& rng) {
-  std::map<std::string, std::vector<double>> by_set;
-  std::vector<double> all;
-  for (const FilterTrial* trial : trials) {
-    all.push_back(measure(*trial));
-    by_set[trial->set].push_back(all.back());
-  }
-  FilterFigure figure{.value = mean_of(all), .interval = {}};
-  std::vector<double> means;
-  for (const auto& [set, values] : by_set) {
-    means.push_back(mean_of(values));
-  }
-  if (means.size() > 1) {
-    figure.interval = bootstrap_interval(means, {}, rng);
-  }
-  return figure;
-}
-
-/// Means over the seeds of each set that both have; methods that draw nothing have one run of it.
-FilterFigure paired_over_sets(const Trials& trials, const Trials& others, const Measure& measure,
-                              Rng& rng) {
-  const auto means_of = [&](const Trials& some) {
-    std::map<std::string, std::vector<double>> by_set;
-    for (const FilterTrial* trial : some) {
-      by_set[trial->set].push_back(measure(*trial));
-    }
-    return by_set;
-  };
-  const auto other_means = means_of(others);
-  std::vector<double> differences;
-  for (const auto& [set, values] : means_of(trials)) {
-    if (const auto same = other_means.find(set); same != other_means.end()) {
-      differences.push_back(mean_of(values) - mean_of(same->second));
-    }
-  }
-  FilterFigure figure;
-  figure.value = differences.empty() ? 0.0 : mean_of(differences);
-  if (differences.size() > 1) {
-    figure.interval = bootstrap_interval(differences, {}, rng);
-  }
-  return figure;
-}
 
 double way_of(const FilterTrial& trial) { return trial.errors.back().driven_m; }
 
@@ -154,7 +110,9 @@ FilterRow row_of(const Trials& trials, Rng& rng) {
     ++sets[trial->set];
   }
   row.sets = sets.size();
-  const auto mean = [&](const Measure& measure) { return mean_over_sets(trials, measure, rng); };
+  const auto mean = [&](const Measure& measure) {
+    return mean_over_sets(measured(trials, measure), rng);
+  };
   row.mean_error_m = mean(mean_error_m);
   row.median_error_m =
       mean([](const FilterTrial& trial) { return quantile(errors_m(trial), 0.5); });
@@ -179,29 +137,22 @@ FilterRow row_of(const Trials& trials, Rng& rng) {
   return row;
 }
 
-/// Groups by kind and method that keep the order in which they first appear; trials without a
-/// scored step say nothing.
+/// By kind and method; trials without a scored step say nothing.
 std::vector<Trials> grouped(std::span<const FilterTrial> trials) {
-  std::vector<Trials> groups;
-  std::map<std::pair<std::string, std::string>, std::size_t> places;
+  Trials scored;
   for (const FilterTrial& trial : trials) {
-    if (trial.errors.empty()) {
-      continue;
+    if (!trial.errors.empty()) {
+      scored.push_back(&trial);
     }
-    const auto [place, is_new] = places.emplace(std::pair(trial.kind, trial.method), groups.size());
-    if (is_new) {
-      groups.emplace_back();
-    }
-    groups[place->second].push_back(&trial);
   }
-  return groups;
+  return detail::grouped(
+      scored, [](const FilterTrial& trial) { return std::pair(trial.kind, trial.method); });
 }
 
-Json json_of(const FilterFigure& figure, double factor) {
-  Json json{{"mean", factor * figure.value}};
-  json["interval_95"] = figure.interval
-                            ? Json{factor * figure.interval->low, factor * figure.interval->high}
-                            : Json();
+Json json_of(const MeanOverSets& mean, double factor) {
+  Json json{{"mean", factor * mean.mean}};
+  json["interval_95"] =
+      mean.interval ? Json{factor * mean.interval->low, factor * mean.interval->high} : Json();
   return json;
 }
 
@@ -211,10 +162,6 @@ Json json_of(const std::vector<std::pair<double, double>>& curve) {
     json.push_back({x, y});
   }
   return json;
-}
-
-std::string text_of(const FilterFigure& figure, double factor, int decimals) {
-  return detail::with_interval(figure.value, figure.interval, factor, decimals);
 }
 
 }  // namespace
@@ -241,7 +188,7 @@ std::vector<FilterDifference> compare_filter(std::span<const FilterTrial> trials
       continue;
     }
     const auto minus = [&](const Measure& measure) {
-      return paired_over_sets(*mine, other, measure, rng);
+      return mean_difference_over_sets(measured(*mine, measure), measured(other, measure), rng);
     };
     differences.push_back({.kind = other.front()->kind,
                            .method = method,
@@ -292,12 +239,13 @@ std::string filter_markdown(std::span<const FilterRow> rows) {
       "lost % | lost at the end % | in its 95 % |\n|---|---|---|---|---|---|---|---|---|---|---|\n";
   for (const FilterRow& row : rows) {
     text += "| " + row.kind + " | " + row.method + " | " + std::to_string(row.trials) + " | " +
-            text_of(row.mean_error_m, 100.0, 0) + " | " + text_of(row.median_error_m, 100.0, 0) +
-            " | " + text_of(row.mean_heading_rad, kDegrees, 1) + " | " +
-            text_of(row.share_within_1_m, 100.0, 0) + " | " +
-            text_of(row.share_within_2_m, 100.0, 0) + " | " +
-            text_of(row.share_ever_lost, 100.0, 0) + " | " +
-            text_of(row.share_lost_at_end, 100.0, 0) + " | " +
+            with_interval(row.mean_error_m, 100.0, 0) + " | " +
+            with_interval(row.median_error_m, 100.0, 0) + " | " +
+            with_interval(row.mean_heading_rad, kDegrees, 1) + " | " +
+            with_interval(row.share_within_1_m, 100.0, 0) + " | " +
+            with_interval(row.share_within_2_m, 100.0, 0) + " | " +
+            with_interval(row.share_ever_lost, 100.0, 0) + " | " +
+            with_interval(row.share_lost_at_end, 100.0, 0) + " | " +
             (row.nees_inside_95 ? detail::fixed(100.0 * *row.nees_inside_95, 0) : "") + " |\n";
   }
   return text;

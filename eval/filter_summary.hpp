@@ -9,16 +9,10 @@
 #include <vector>
 
 #include "eval/filter_trials.hpp"
-#include "eval/intervals.hpp"
+#include "eval/mean_over_sets.hpp"
 #include "eval/summary.hpp"
 
 namespace sketchloc {
-
-/// A figure with its 95 % interval; none where there is one set only.
-struct FilterFigure {
-  double value = 0.0;
-  std::optional<Interval> interval;
-};
 
 /// One line of a filter suite: a method on all sets of a kind, all seeds together. Means are over
 /// trials; their intervals are bootstraps over the sets, whose seeds resemble each other.
@@ -27,13 +21,13 @@ struct FilterRow {
   std::string method;
   std::size_t sets = 0;
   std::size_t trials = 0;
-  FilterFigure mean_error_m;
-  FilterFigure median_error_m;  ///< mean over the trials' medians
-  FilterFigure mean_heading_rad;
-  FilterFigure share_within_1_m;
-  FilterFigure share_within_2_m;
-  FilterFigure share_ever_lost;          ///< of the trials
-  FilterFigure share_lost_at_end;        ///< of the trials
+  MeanOverSets mean_error_m;
+  MeanOverSets median_error_m;  ///< mean over the trials' medians
+  MeanOverSets mean_heading_rad;
+  MeanOverSets share_within_1_m;
+  MeanOverSets share_within_2_m;
+  MeanOverSets share_ever_lost;          ///< of the trials
+  MeanOverSets share_lost_at_end;        ///< of the trials
   std::optional<double> nees_inside_95;  ///< of the steps; none where no covariance is stated
   /// Survival: way driven, m, and share of the trials not lost by then.
   std::vector<std::pair<double, double>> survival;
@@ -50,8 +44,8 @@ struct FilterDifference {
   std::string kind;
   std::string method;
   std::string other;
-  FilterFigure mean_error_m;
-  FilterFigure share_within_2_m;
+  MeanOverSets mean_error_m;
+  MeanOverSets share_within_2_m;
 };
 
 /// Of one method against each other one.

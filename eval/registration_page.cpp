@@ -18,14 +18,11 @@ namespace {
 
 using detail::escaped;
 using detail::fixed;
+using detail::with_interval;
 
 constexpr double kDegrees = deg_from_rad(1.0);
 constexpr std::array<detail::Colour, 6> kColours = {
     {{0, 100, 190}, {213, 68, 0}, {230, 159, 0}, {0, 158, 115}, {150, 80, 150}, {110, 110, 118}}};
-
-std::string mean_text(const MeanOverSets& mean, double factor, int decimals) {
-  return detail::with_interval(mean.mean, mean.interval, factor, decimals);
-}
 
 std::string main_table(const RegistrationPage& page) {
   std::vector<std::vector<std::string>> lines;
@@ -33,11 +30,11 @@ std::string main_table(const RegistrationPage& page) {
     if (!is_swept(row.kind, row.protocol)) {
       lines.push_back(
           {row.kind, row.method, row.protocol, std::to_string(row.trials),
-           fixed(100.0 * row.prior_m.median, 0), mean_text(row.mean_position_m, 100.0, 1),
+           fixed(100.0 * row.prior_m.median, 0), with_interval(row.mean_position_m, 100.0, 1),
            fixed(100.0 * row.position_m.median, 1), fixed(100.0 * row.position_m.p90, 0),
-           mean_text(row.mean_heading_rad, kDegrees, 1),
-           fixed(kDegrees * row.heading_rad.median, 1), mean_text(row.share_nearer, 100.0, 0),
-           mean_text(row.share_aligned, 100.0, 0), mean_text(row.share_right, 100.0, 0),
+           with_interval(row.mean_heading_rad, kDegrees, 1),
+           fixed(kDegrees * row.heading_rad.median, 1), with_interval(row.share_nearer, 100.0, 0),
+           with_interval(row.share_aligned, 100.0, 0), with_interval(row.share_right, 100.0, 0),
            fixed(row.median_ms, 1)});
     }
   }
@@ -64,8 +61,8 @@ std::string difference_table(const RegistrationPage& page) {
       continue;
     }
     lines.push_back({difference.kind, difference.method + " minus " + difference.other,
-                     difference.protocol, mean_text(difference.position_m, 100.0, 1),
-                     mean_text(difference.heading_rad, kDegrees, 1)});
+                     difference.protocol, with_interval(difference.position_m, 100.0, 1),
+                     with_interval(difference.heading_rad, kDegrees, 1)});
   }
   return detail::results_table({"drawings", "methods", "priors", "error, cm", "heading, deg"},
                                lines) +

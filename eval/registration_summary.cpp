@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <tuple>
 
+#include "eval/detail/grouped.hpp"
 #include "eval/detail/page_table.hpp"
 #include "eval/detail/text.hpp"
 #include "eval/distributions.hpp"
@@ -16,6 +17,7 @@
 namespace sketchloc {
 namespace {
 
+using detail::with_interval;
 using Trials = std::vector<const RegistrationTrial*>;
 using Figure = std::function<double(const RegistrationTrial&)>;
 using Json = nlohmann::ordered_json;
@@ -34,23 +36,6 @@ std::vector<double> values_of(const Trials& trials, const Figure& figure) {
     values.push_back(figure(*trial));
   }
   return values;
-}
-
-/// The mean over all trials; its interval from the means of the sets.
-MeanOverSets mean_over_sets(const Trials& trials, const Figure& figure, Rng& rng) {
-  std::map<std::string, std::vector<double>> by_set;
-  for (const RegistrationTrial* trial : trials) {
-    by_set[trial->set].push_back(figure(*trial));
-  }
-  std::vector<double> means;
-  for (const auto& [set, values] : by_set) {
-    means.push_back(summarize(values)->mean);
-  }
-  MeanOverSets result{.mean = summarize(values_of(trials, figure))->mean, .interval = {}};
-  if (means.size() > 1) {
-    result.interval = bootstrap_interval(means, {}, rng);
-  }
-  return result;
 }
 
 std::optional<Coverage> coverage_of(const Trials& trials) {
@@ -120,19 +105,19 @@ RegistrationRow row_of(const Trials& trials, Rng& rng) {
   row.prior_m = summary([](const auto& trial) { return trial.prior.position_m; });
   row.position_m = summary(position_of);
   row.heading_rad = summary(heading_of);
-  row.mean_position_m = mean_over_sets(trials, position_of, rng);
-  row.mean_heading_rad = mean_over_sets(trials, heading_of, rng);
-  row.share_nearer = mean_over_sets(
-      trials, [](const auto& trial) { return is_nearer(trial) ? 1.0 : 0.0; }, rng);
-  row.share_right = mean_over_sets(
-      trials, [](const auto& trial) { return is_right(trial) ? 1.0 : 0.0; }, rng);
+  const auto mean = [&](const Figure& figure) {
+    return mean_over_sets(measured(trials, figure), rng);
+  };
+  row.mean_position_m = mean(position_of);
+  row.mean_heading_rad = mean(heading_of);
+  row.share_nearer = mean([](const auto& trial) { return is_nearer(trial) ? 1.0 : 0.0; });
+  row.share_right = mean([](const auto& trial) { return is_right(trial) ? 1.0 : 0.0; });
   row.log_scale_error_median =
       summary([](const auto& trial) { return std::abs(trial.log_scale_error); }).median;
-  row.alignment_gain = mean_over_sets(
-      trials, [](const auto& trial) { return trial.alignment - trial.prior_alignment; }, rng);
-  row.share_aligned = mean_over_sets(
-      trials, [](const auto& trial) { return trial.alignment > trial.prior_alignment ? 1.0 : 0.0; },
-      rng);
+  row.alignment_gain =
+      mean([](const auto& trial) { return trial.alignment - trial.prior_alignment; });
+  row.share_aligned =
+      mean([](const auto& trial) { return trial.alignment > trial.prior_alignment ? 1.0 : 0.0; });
   row.coverage = coverage_of(trials);
   row.reliability = reliability_of(trials);
   row.inlier_brier = summary(brier).mean;
@@ -140,21 +125,15 @@ RegistrationRow row_of(const Trials& trials, Rng& rng) {
   return row;
 }
 
-/// Groups that keep the order in which they first appear.
-template <typename Key>
-std::vector<std::pair<Key, Trials>> grouped(
-    std::span<const RegistrationTrial> trials,
-    const std::function<Key(const RegistrationTrial&)>& key) {
-  std::vector<std::pair<Key, Trials>> groups;
-  std::map<Key, std::size_t> places;
+/// By kind, protocol and method.
+std::vector<Trials> grouped(std::span<const RegistrationTrial> trials) {
+  Trials all;
   for (const RegistrationTrial& trial : trials) {
-    const auto [place, is_new] = places.emplace(key(trial), groups.size());
-    if (is_new) {
-      groups.emplace_back(place->first, Trials{});
-    }
-    groups[place->second].second.push_back(&trial);
+    all.push_back(&trial);
   }
-  return groups;
+  return detail::grouped(all, [](const RegistrationTrial& trial) {
+    return std::tuple(trial.kind, trial.protocol, trial.method);
+  });
 }
 
 Json json_of(const MeanOverSets& mean, double factor) {
@@ -206,10 +185,6 @@ Json json_of(const RegistrationRow& row) {
   return json;
 }
 
-std::string with_interval(const MeanOverSets& mean, double factor, int decimals) {
-  return detail::with_interval(mean.mean, mean.interval, factor, decimals);
-}
-
 }  // namespace
 
 bool is_right(const RegistrationTrial& trial) {
@@ -218,12 +193,9 @@ bool is_right(const RegistrationTrial& trial) {
 
 std::vector<RegistrationRow> summarize_registration(std::span<const RegistrationTrial> trials,
                                                     std::uint64_t seed) {
-  using Key = std::tuple<std::string, std::string, std::string>;
   Rng rng = make_rng(seed);
   std::vector<RegistrationRow> rows;
-  for (const auto& [key, group] : grouped<Key>(trials, [](const RegistrationTrial& trial) {
-         return Key(trial.kind, trial.protocol, trial.method);
-       })) {
+  for (const Trials& group : grouped(trials)) {
     rows.push_back(row_of(group, rng));
   }
   return rows;
@@ -233,7 +205,6 @@ std::vector<RegistrationDifference> compare_registration(std::span<const Registr
                                                          const std::string& method,
                                                          std::uint64_t seed) {
   using Question = std::tuple<std::string, std::string, std::size_t>;  // protocol, set, step
-  using Key = std::tuple<std::string, std::string, std::string>;
   std::map<Question, const RegistrationTrial*> answers;
   for (const RegistrationTrial& trial : trials) {
     if (trial.method == method) {
@@ -242,13 +213,12 @@ std::vector<RegistrationDifference> compare_registration(std::span<const Registr
   }
   Rng rng = make_rng(seed);
   std::vector<RegistrationDifference> differences;
-  for (const auto& [key, others] : grouped<Key>(trials, [](const RegistrationTrial& trial) {
-         return Key(trial.kind, trial.protocol, trial.method);
-       })) {
-    const auto minus_other = [&](const Figure& figure) -> Figure {
-      return [&answers, figure](const RegistrationTrial& other) {
+  for (const Trials& others : grouped(trials)) {
+    const auto mean_minus_other = [&](const Figure& figure) {
+      const auto difference = [&](const RegistrationTrial& other) {
         return figure(*answers.at({other.protocol, other.set, other.index})) - figure(other);
       };
+      return mean_over_sets(measured(others, difference), rng);
     };
     const RegistrationTrial& first = *others.front();
     if (first.method == method || !answers.contains({first.protocol, first.set, first.index})) {
@@ -258,8 +228,8 @@ std::vector<RegistrationDifference> compare_registration(std::span<const Registr
                            .protocol = first.protocol,
                            .method = method,
                            .other = first.method,
-                           .position_m = mean_over_sets(others, minus_other(position_of), rng),
-                           .heading_rad = mean_over_sets(others, minus_other(heading_of), rng)});
+                           .position_m = mean_minus_other(position_of),
+                           .heading_rad = mean_minus_other(heading_of)});
   }
   return differences;
 }

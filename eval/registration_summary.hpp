@@ -8,17 +8,11 @@
 #include <vector>
 
 #include "eval/intervals.hpp"
+#include "eval/mean_over_sets.hpp"
 #include "eval/registration_trials.hpp"
 #include "eval/summary.hpp"
 
 namespace sketchloc {
-
-/// A mean with its 95 % interval. Trials of one drive resemble each other, so the interval is that
-/// of the drives' means; none for a single drive.
-struct MeanOverSets {
-  double mean = 0.0;
-  std::optional<Interval> interval;
-};
 
 /// How often a stated covariance holds, of those that were stated.
 struct Coverage {

@@ -25,12 +25,11 @@ std::string results_table(const std::vector<std::string>& heads,
   return html + "</tbody></table></div>";
 }
 
-std::string with_interval(double value, const std::optional<Interval>& interval, double factor,
-                          int decimals) {
-  std::string text = fixed(factor * value, decimals);
-  if (interval) {
-    text += " [" + fixed(factor * interval->low, decimals) + ", " +
-            fixed(factor * interval->high, decimals) + "]";
+std::string with_interval(const MeanOverSets& mean, double factor, int decimals) {
+  std::string text = fixed(factor * mean.mean, decimals);
+  if (mean.interval) {
+    text += " [" + fixed(factor * mean.interval->low, decimals) + ", " +
+            fixed(factor * mean.interval->high, decimals) + "]";
   }
   return text;
 }

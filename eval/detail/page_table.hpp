@@ -1,10 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "eval/intervals.hpp"
+#include "eval/mean_over_sets.hpp"
 
 namespace sketchloc::detail {
 
@@ -15,8 +14,7 @@ std::string section(const std::string& title, const std::string& body);
 std::string results_table(const std::vector<std::string>& heads,
                           const std::vector<std::vector<std::string>>& lines);
 
-/// "12.3 [11.0, 14.1]" of a value and its interval, both times a factor.
-std::string with_interval(double value, const std::optional<Interval>& interval, double factor,
-                          int decimals);
+/// "12.3 [11.0, 14.1]": a mean with its interval, both times a factor.
+std::string with_interval(const MeanOverSets& mean, double factor, int decimals);
 
 }  // namespace sketchloc::detail

@@ -42,11 +42,11 @@ TEST(FilterSummary, PoolsTheRunsOfAMethod) {
   EXPECT_EQ(rows[0].method, "good");
   EXPECT_EQ(rows[0].sets, 2U);
   EXPECT_EQ(rows[0].trials, 3U);
-  EXPECT_NEAR(rows[0].mean_error_m.value, (0.75 + 0.5 + 1.0) / 3.0, 1e-12);
-  EXPECT_NEAR(rows[0].share_within_1_m.value, (0.75 + 1.0 + 1.0) / 3.0, 1e-12);
-  EXPECT_NEAR(rows[0].share_ever_lost.value, 0.0, 1e-12);
-  EXPECT_NEAR(rows[1].share_ever_lost.value, 0.5, 1e-12);
-  EXPECT_NEAR(rows[1].share_lost_at_end.value, 0.5, 1e-12);
+  EXPECT_NEAR(rows[0].mean_error_m.mean, (0.75 + 0.5 + 1.0) / 3.0, 1e-12);
+  EXPECT_NEAR(rows[0].share_within_1_m.mean, (0.75 + 1.0 + 1.0) / 3.0, 1e-12);
+  EXPECT_NEAR(rows[0].share_ever_lost.mean, 0.0, 1e-12);
+  EXPECT_NEAR(rows[1].share_ever_lost.mean, 0.5, 1e-12);
+  EXPECT_NEAR(rows[1].share_lost_at_end.mean, 0.5, 1e-12);
   EXPECT_EQ(rows[1].nees_inside_95, 1.0);
 }
 
@@ -65,7 +65,7 @@ TEST(FilterSummary, ComparesOnTheSameRuns) {
   ASSERT_EQ(differences.size(), 1U);
   const double on_a = 0.625 - (0.5 + 7 * 9.0) / 8.0;  // over both seeds of the first
   const double on_b = 1.0 - 2.5;
-  EXPECT_NEAR(differences[0].mean_error_m.value, 0.5 * (on_a + on_b), 1e-12);
+  EXPECT_NEAR(differences[0].mean_error_m.mean, 0.5 * (on_a + on_b), 1e-12);
 }
 
 TEST(FilterSummary, IsWrittenAsJsonTableAndPage) {
