@@ -57,6 +57,20 @@ double bisect(const Increasing& f, double target, double low, double high) {
   }
 }
 
+/// The value >= 0 below which an increasing probability reaches the given one, in [0, 1).
+template <typename Increasing>
+double quantile_above_zero(const Increasing& probability_below, double probability) {
+  check(probability >= 0.0 && probability < 1.0, "a quantile needs a share in [0, 1)");
+  if (probability == 0.0) {
+    return 0.0;
+  }
+  double high = 1.0;
+  while (probability_below(high) < probability) {
+    high *= 2.0;
+  }
+  return bisect(probability_below, probability, 0.0, high);
+}
+
 }  // namespace
 
 double normal_quantile(double probability) {
@@ -81,16 +95,29 @@ double chi_square_probability(double x, double degrees) {
 }
 
 double chi_square_quantile(double probability, double degrees) {
-  check(probability >= 0.0 && probability < 1.0, "a chi-square quantile needs a share in [0, 1)");
-  if (probability == 0.0) {
-    return 0.0;
+  return quantile_above_zero([&](double x) { return chi_square_probability(x, degrees); },
+                             probability);
+}
+
+double student_t_probability(double x, int dimensions, int degrees) {
+  check(dimensions > 0 && degrees > 2 && degrees % 2 == 0 && x >= 0.0,
+        "a Student t with an even number of degrees of freedom that has a covariance");
+  // x / (degrees - 2) is a ratio of chi-square variables, so `share` has a beta distribution with
+  // (dimensions / 2, degrees / 2): a finite sum, since the second is an integer.
+  const double share = x / (x + degrees - 2.0);
+  const double a = 0.5 * dimensions;
+  double term = 1.0;
+  double sum = 1.0;
+  for (int j = 1; j < degrees / 2; ++j) {
+    term *= (a + j - 1.0) / j * (1.0 - share);
+    sum += term;
   }
-  const auto below = [&](double x) { return chi_square_probability(x, degrees); };
-  double high = degrees + 1.0;
-  while (below(high) < probability) {
-    high *= 2.0;
-  }
-  return bisect(below, probability, 0.0, high);
+  return std::pow(share, a) * sum;
+}
+
+double student_t_quantile(double probability, int dimensions, int degrees) {
+  return quantile_above_zero(
+      [&](double x) { return student_t_probability(x, dimensions, degrees); }, probability);
 }
 
 }  // namespace sketchloc

@@ -14,4 +14,12 @@ double chi_square_probability(double x, double degrees);
 /// The value that a chi-square variable stays below with the given probability in [0, 1).
 double chi_square_quantile(double probability, double degrees);
 
+/// The share of a Student t in `dimensions` with `degrees` of freedom, an even number > 2, whose
+/// squared Mahalanobis distance by its covariance is at most x >= 0.
+double student_t_probability(double x, int dimensions, int degrees);
+
+/// The squared Mahalanobis distance, by its covariance, that it stays below with the given
+/// probability in [0, 1): chi_square_quantile's counterpart with long tails.
+double student_t_quantile(double probability, int dimensions, int degrees);
+
 }  // namespace sketchloc

@@ -50,10 +50,10 @@ std::optional<Coverage> coverage_of(const Trials& trials) {
   if (pose.empty()) {
     return std::nullopt;
   }
-  return Coverage{.pose_68 = share_within(pose, chi_square_quantile(0.68, 3)),
-                  .pose_95 = share_within(pose, chi_square_quantile(0.95, 3)),
-                  .position_68 = share_within(position, chi_square_quantile(0.68, 2)),
-                  .position_95 = share_within(position, chi_square_quantile(0.95, 2)),
+  return Coverage{.pose_68 = share_within(pose, student_t_quantile(0.68, 3, kErrorDegrees)),
+                  .pose_95 = share_within(pose, student_t_quantile(0.95, 3, kErrorDegrees)),
+                  .position_68 = share_within(position, student_t_quantile(0.68, 2, kErrorDegrees)),
+                  .position_95 = share_within(position, student_t_quantile(0.95, 2, kErrorDegrees)),
                   .count = pose.size()};
 }
 

@@ -8,8 +8,10 @@ namespace sketchloc {
 inline constexpr int kCorrelationReach = 4;
 inline constexpr int kCorrelationShifts = (2 * kCorrelationReach + 1) * (2 * kCorrelationReach + 1);
 
-/// The name of `correlate` as an operation in ONNX files, and the domain it is of.
-inline constexpr const char* kCorrelationOperation = "Correlation";
+/// An operation in ONNX files, and the domain it is of. Of a scan's features (1 x c x side x side,
+/// or one for each drawing) and drawings' (n x c x side x side) it makes n x (2 c +
+/// kCorrelationShifts) planes: the scan's, the drawing's, and what `correlate` says.
+inline constexpr const char* kMatchOperation = "Match";
 inline constexpr const char* kOperationDomain = "sketchloc";
 
 /// A map of features: planes of side x side cells, one after the other, each row by row.

@@ -11,7 +11,7 @@
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
-#include "registration/detail/correlation_layer.hpp"
+#include "registration/detail/match_layer.hpp"
 #include "registration/network_input.hpp"
 #include "registration/network_output.hpp"
 
@@ -66,12 +66,18 @@ class SilentOpenCv {
 };
 
 cv::dnn::Net read_network(std::span<const std::uint8_t> onnx) {
-  detail::register_correlation_layer();
+  detail::register_match_layer();
   cv::dnn::Net network =
       cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(onnx.data()), onnx.size());
   network.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
   return network;
 }
+
+/// The planes of a scan, and of as many drawings as there are priors, one after the other.
+struct Planes {
+  std::vector<float> scan;
+  std::vector<float> drawings;
+};
 
 class NetworkPredictor final : public WarpPredictor {
  public:
@@ -81,8 +87,7 @@ class NetworkPredictor final : public WarpPredictor {
     try {
       const SilentOpenCv silent;
       network_ = read_network(onnx);
-      const std::vector<float> nothing(input_size(), 0.0F);
-      const cv::Mat output = forward(nothing, 1);
+      const cv::Mat output = forward(nothing());
       if (output.total() != outputs_of(kind)) {
         throw std::runtime_error("expected " + std::to_string(outputs_of(kind)) +
                                  " outputs, found " + std::to_string(output.total()));
@@ -103,17 +108,58 @@ class NetworkPredictor final : public WarpPredictor {
   InputKind input_kind() const {
     return kind_ == PredictorKind::Ours ? InputKind::Residual : InputKind::Published;
   }
-  std::size_t input_size() const {
-    return static_cast<std::size_t>(channels_of(input_kind()) * params_.window.cells *
-                                    params_.window.cells);
+  std::size_t cells() const {
+    return static_cast<std::size_t>(params_.window.cells * params_.window.cells);
   }
 
-  cv::Mat forward(const std::vector<float>& input, std::size_t count) {
-    const std::array<int, 4> shape = {static_cast<int>(count), channels_of(input_kind()),
-                                      params_.window.cells, params_.window.cells};
+  Planes nothing() const {
+    const auto of_scan = static_cast<std::size_t>(scan_channels_of(input_kind()));
+    const auto all = static_cast<std::size_t>(channels_of(input_kind()));
+    return {.scan = std::vector<float>(of_scan * cells(), 0.0F),
+            .drawings = std::vector<float>((all - of_scan) * cells(), 0.0F)};
+  }
+
+  Planes planes_of(std::span<const PlacedScan> submap, const SketchCropper& drawing,
+                   std::span<const Sim2> priors, const LocalWindow& window) const {
+    Planes planes{.scan = scan_input(input_kind(), submap, window), .drawings = {}};
+    for (const Sim2& prior : priors) {
+      const std::vector<float> drawn = drawing_input(input_kind(), drawing, prior, window);
+      planes.drawings.insert(planes.drawings.end(), drawn.begin(), drawn.end());
+    }
+    return planes;
+  }
+
+  void set_input(const char* name, int channels, const std::vector<float>& planes) {
+    const auto count = planes.size() / (static_cast<std::size_t>(channels) * cells());
+    const std::array<int, 4> shape = {static_cast<int>(count), channels, params_.window.cells,
+                                      params_.window.cells};
     // setInput copies; cv::Mat has no view of constant numbers.
-    network_.setInput(cv::Mat(4, shape.data(), CV_32F, const_cast<float*>(input.data())));
+    network_.setInput(cv::Mat(4, shape.data(), CV_32F, const_cast<float*>(planes.data())), name);
+  }
+
+  cv::Mat forward(const Planes& planes) {
+    const int all = channels_of(input_kind());
+    const int of_scan = scan_channels_of(input_kind());
+    if (input_kind() == InputKind::Residual) {
+      set_input(kScanInput, of_scan, planes.scan);
+      set_input(kDrawingInput, all - of_scan, planes.drawings);
+    } else {
+      set_input(kStackedInput, all, stacked(planes));
+    }
     return network_.forward();
+  }
+
+  /// The scan's planes before each drawing's.
+  std::vector<float> stacked(const Planes& planes) const {
+    const auto each = static_cast<std::ptrdiff_t>(
+        static_cast<std::size_t>(channels_of(input_kind())) * cells() - planes.scan.size());
+    std::vector<float> both;
+    for (auto drawing = planes.drawings.begin(); drawing != planes.drawings.end();
+         drawing += each) {
+      both.insert(both.end(), planes.scan.begin(), planes.scan.end());
+      both.insert(both.end(), drawing, drawing + each);
+    }
+    return both;
   }
 
   /// Whether a window around the priors has a size in pixels that a drawing can have.
@@ -128,8 +174,7 @@ class NetworkPredictor final : public WarpPredictor {
   std::vector<std::vector<float>> look(std::span<const PlacedScan> submap,
                                        const SketchCropper& drawing, std::span<const Sim2> priors,
                                        const LocalWindow& window) {
-    const cv::Mat output =
-        forward(network_input(input_kind(), submap, drawing, priors, window), priors.size());
+    const cv::Mat output = forward(planes_of(submap, drawing, priors, window));
     const std::size_t width = outputs_of(kind_);
     if (output.total() != priors.size() * width) {
       throw std::runtime_error("the network does not take several inputs at once");

@@ -4,6 +4,7 @@
 
 #include "registration/control_grid.hpp"
 #include "registration/network_output.hpp"
+#include "registration/warp_predictor.hpp"
 
 namespace sketchloc::detail {
 namespace {
@@ -34,8 +35,9 @@ torch::Tensor grid_loss(const torch::Tensor& output, const ResidualTruth& truth,
   return weighted.sum() / truth.grid_weight.sum().clamp_min(1.0);
 }
 
-/// |W (truth - mean)|^2 / 2 - log det W with W from the ten numbers of ResidualOutput::kWhitening.
-/// Without a limit: who is sure and wrong has to learn that.
+/// Minus the log likelihood of Student's t, but for a constant, with W from the ten numbers of
+/// ResidualOutput::kWhitening: (d + 4) / 2 log(1 + |W (truth - mean)|^2 / (d - 2)) - log det W,
+/// d its degrees of freedom and (W^T W)^-1 its covariance.
 torch::Tensor spread_loss(const torch::Tensor& output, const torch::Tensor& error) {
   const torch::Tensor numbers = columns(output, ResidualOutput::kWhitening, 10);
   const torch::Tensor log_diagonal =
@@ -52,7 +54,8 @@ torch::Tensor spread_loss(const torch::Tensor& output, const torch::Tensor& erro
     whitened.push_back(sum);
   }
   const torch::Tensor squared = torch::stack(whitened, 1).square().sum(1);
-  return (0.5 * squared - log_diagonal.sum(1)).mean();
+  const torch::Tensor far = torch::log1p(squared / (kErrorDegrees - 2.0));
+  return (0.5 * (kErrorDegrees + 4.0) * far - log_diagonal.sum(1)).mean();
 }
 
 torch::Tensor inlier_loss(const torch::Tensor& output, const torch::Tensor& error,

@@ -99,7 +99,8 @@ struct FoldedNetwork {
   std::vector<std::variant<Convolution, Residual, Match, Linear>> layers{};
 };
 
-/// The bytes of an ONNX file: input "input" (1 x channels x cells x cells), output "output".
+/// The bytes of an ONNX file: inputs kScanInput and kDrawingInput of a network that begins with a
+/// match, else kStackedInput; output "output". Each of 1 x channels x cells x cells.
 std::string onnx_bytes(const FoldedNetwork& network);
 
 }  // namespace sketchloc

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "registration/correlation.hpp"
+#include "registration/network_input.hpp"
 #include "registration/train/network_plan.hpp"
 
 namespace sketchloc {
@@ -45,20 +46,12 @@ class GraphWriter {
   }
 
   void add(const Match& layer) {
-    onnx::NodeProto& split = append("Split", {last_});
-    const std::string scan_input = split.output(0);
-    const std::string drawing_input = split.name() + "_drawing";
-    split.add_output(drawing_input);
-    add_integer(split, "axis", 1);
-    add_integers(split, "split", {layer.plan.scan_channels, layer.plan.drawing_channels});
-    last_ = scan_input;
+    last_ = kScanInput;
     add(layer.scan);
     const std::string scan = last_;
-    last_ = drawing_input;
+    last_ = kDrawingInput;
     add(layer.drawing);
-    const std::string drawing = last_;
-    append(kCorrelationOperation, {scan, drawing}).set_domain(kOperationDomain);
-    add_integer(append("Concat", {scan, drawing, last_}), "axis", 1);
+    append(kMatchOperation, {scan, last_}).set_domain(kOperationDomain);
   }
 
   void add(const Linear& layer) {
@@ -131,7 +124,7 @@ class GraphWriter {
   }
 
   onnx::GraphProto& graph_;
-  std::string last_ = "input";
+  std::string last_ = kStackedInput;
   bool flat_ = false;
 };
 
@@ -158,7 +151,15 @@ std::string onnx_bytes(const FoldedNetwork& network) {
   onnx::GraphProto& graph = *model.mutable_graph();
   graph.set_name("registration");
   const NetworkPlan& plan = network.plan;
-  describe(*graph.add_input(), "input", {1, plan.channels, plan.cells, plan.cells});
+  const auto describe_input = [&](const char* name, int channels) {
+    describe(*graph.add_input(), name, {1, channels, plan.cells, plan.cells});
+  };
+  if (const auto* match = std::get_if<MatchPlan>(&plan.layers.front())) {
+    describe_input(kScanInput, match->scan_channels);
+    describe_input(kDrawingInput, match->drawing_channels);
+  } else {
+    describe_input(kStackedInput, plan.channels);
+  }
   describe(*graph.add_output(), "output", {1, plan.outputs});
   GraphWriter writer(graph);
   for (const auto& layer : network.layers) {

@@ -169,8 +169,8 @@ Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kin
     sample.window.side_m = params.min_fine_side_m *
                            std::pow(params.max_fine_side_m / params.min_fine_side_m, uniform(rng));
   }
-  sample.input = network_input(kind, submap.scans, scene.sketch(),
-                               {&sample.prior_sketch_from_robot, 1}, sample.window);
+  sample.input = network_input(kind, submap.scans, scene.sketch(), sample.prior_sketch_from_robot,
+                               sample.window);
   label_pose(sample);
   if (kind == InputKind::Published) {
     label_published_warp(sample, scene, submap.world_from_robot);

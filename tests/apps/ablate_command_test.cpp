@@ -30,7 +30,8 @@ class AblateCommandEndToEnd : public ::testing::Test {
  protected:
   AblateCommandEndToEnd() {
     const std::vector<float> nothing(ResidualOutput::kSize, 0.0F);
-    std::ofstream(folder_ / "ours.onnx", std::ios::binary) << testing::constant_network(5, nothing);
+    std::ofstream(folder_ / "ours.onnx", std::ios::binary)
+        << testing::constant_network(InputKind::Residual, nothing);
   }
 
   std::string in(const std::string& name) const { return (folder_ / name).string(); }

@@ -53,10 +53,11 @@ class RegisterCommandEndToEnd : public ::testing::Test {
     true_sketch_from_robot_ = made.reference.poses.front().sketch_from_robot;
     std::vector<float> ahead(ResidualOutput::kSize, 0.0F);
     ahead[ResidualOutput::kPose] = 1.0F;
-    std::ofstream(*inputs_ / "ours.onnx", std::ios::binary) << testing::constant_network(5, ahead);
+    std::ofstream(*inputs_ / "ours.onnx", std::ios::binary)
+        << testing::constant_network(InputKind::Residual, ahead);
     const std::vector<float> identity = {1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F};
     std::ofstream(*inputs_ / "affine.onnx", std::ios::binary)
-        << testing::constant_network(2, identity);
+        << testing::constant_network(InputKind::Published, identity);
   }
   static void TearDownTestSuite() { delete inputs_; }
 

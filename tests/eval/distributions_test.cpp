@@ -51,5 +51,29 @@ TEST(ChiSquareQuantile, UndoesTheProbability) {
   }
 }
 
+TEST(StudentT, InOneDimensionIsThePublishedOne) {
+  // SciPy 1.10, scipy.stats.t.ppf(0.975, 4) and (0.84, 6); a scale of 1 has a variance of
+  // degrees / (degrees - 2).
+  const double at_4 = 2.7764451051977934;
+  EXPECT_NEAR(student_t_quantile(0.95, 1, 4), at_4 * at_4 / 2.0, 1e-9);
+  const double at_6 = 1.0839756791279657;
+  EXPECT_NEAR(student_t_probability(at_6 * at_6 / 1.5, 1, 6), 0.68, 1e-3);
+}
+
+TEST(StudentT, HasTheMeanDistanceOfItsCovariance) {
+  // E[distance] = dimensions, as the integral of 1 - P.
+  double mean = 0.0;
+  constexpr double kStep = 0.01;
+  for (double x = 0.5 * kStep; x < 4000.0; x += kStep) {
+    mean += kStep * (1.0 - student_t_probability(x, 3, 4));
+  }
+  EXPECT_NEAR(mean, 3.0, 0.01);
+}
+
+TEST(StudentT, IsAGaussianWithManyDegrees) {
+  EXPECT_NEAR(student_t_quantile(0.95, 3, 20000), chi_square_quantile(0.95, 3), 5e-3);
+  EXPECT_LT(student_t_quantile(0.68, 3, 4), chi_square_quantile(0.68, 3));
+}
+
 }  // namespace
 }  // namespace sketchloc

@@ -22,7 +22,7 @@ TEST(NetworkInput, HasOnePlanePerChannel) {
   const std::vector<PlacedScan> submap = {{.scan = &scan}};
   const Sim2 prior = Sim2::from_xy_yaw_scale(100.0, 100.0, 0.0, kPublishedPxPerM);
   for (const InputKind kind : {InputKind::Published, InputKind::Residual}) {
-    EXPECT_EQ(network_input(kind, submap, dotted(), {&prior, 1}, kWindow).size(),
+    EXPECT_EQ(network_input(kind, submap, dotted(), prior, kWindow).size(),
               static_cast<std::size_t>(channels_of(kind)) * 256);
   }
 }
@@ -37,8 +37,8 @@ TEST(NetworkInput, TakesOnlyPositionAndPresentScanForThePublishedPair) {
   const Sim2 turned = Sim2::from_xy_yaw_scale(100.0, 100.0, 1.0, 12.0);
   const SketchCropper sketch = dotted();
   const std::vector<float> input =
-      network_input(InputKind::Published, alone, sketch, {&prior, 1}, kWindow);
-  EXPECT_EQ(input, network_input(InputKind::Published, both, sketch, {&turned, 1}, kWindow));
+      network_input(InputKind::Published, alone, sketch, prior, kWindow);
+  EXPECT_EQ(input, network_input(InputKind::Published, both, sketch, turned, kWindow));
   // 1.1 m ahead in both pictures: row 8, column 12
   EXPECT_EQ(input[8 * 16 + 12], 1.0F);
   EXPECT_EQ(input[256 + 8 * 16 + 12], 1.0F);

@@ -5,6 +5,8 @@
 #include <initializer_list>
 #include <vector>
 
+#include "registration/correlation.hpp"
+
 namespace sketchloc::testing {
 namespace {
 
@@ -63,21 +65,55 @@ std::string value_info(std::uint64_t field, const std::string& name,
   return bytes(field, bytes(1, name) + bytes(2, bytes(1, number(1, kFloat) + bytes(2, shape))));
 }
 
+std::string integers_attribute(const std::string& name,
+                               std::initializer_list<std::uint64_t> values) {
+  constexpr std::uint64_t kIntegers = 7;
+  std::string content = bytes(1, name);
+  for (const std::uint64_t value : values) {
+    content += number(8, value);
+  }
+  return bytes(5, content + number(20, kIntegers));
+}
+
+/// One plane of zeros from so many.
+std::string nothing_of(const char* input, std::uint64_t planes, const std::string& output) {
+  const std::string weights = output + "_weights";
+  const std::vector<float> zeros(planes, 0.0F);
+  return node("Conv", {input, weights.c_str()}, output,
+              integers_attribute("kernel_shape", {1, 1})) +
+         tensor(weights, {1, planes, 1, 1}, zeros);
+}
+
 }  // namespace
 
-std::string constant_network(int channels, std::span<const float> output) {
+std::string constant_network(InputKind kind, std::span<const float> output) {
   constexpr std::uint64_t kCells = 64;
-  const auto width = static_cast<std::uint64_t>(channels);
+  const auto channels = static_cast<std::uint64_t>(channels_of(kind));
+  const auto scan_channels = static_cast<std::uint64_t>(scan_channels_of(kind));
+  const auto input = [](const char* name, std::uint64_t planes) {
+    return value_info(11, name, {1, planes, kCells, kCells});
+  };
+  std::string graph;
+  std::uint64_t width = 1;
+  if (kind == InputKind::Published) {
+    graph = nothing_of(kStackedInput, channels, "seen") + input(kStackedInput, channels);
+  } else {
+    width = 2 + kCorrelationShifts;
+    graph = nothing_of(kScanInput, scan_channels, "scan_features") +
+            nothing_of(kDrawingInput, channels - scan_channels, "drawing_features") +
+            node(kMatchOperation, {"scan_features", "drawing_features"}, "seen",
+                 bytes(7, kOperationDomain)) +
+            input(kScanInput, scan_channels) + input(kDrawingInput, channels - scan_channels);
+  }
   const std::uint64_t outputs = output.size();
   const std::vector<float> zeros(width * outputs, 0.0F);
-  const std::string graph =
-      node("GlobalAveragePool", {"input"}, "pooled") +
-      node("Flatten", {"pooled"}, "flat", integer_attribute("axis", 1)) +
-      node("Gemm", {"flat", "weights", "bias"}, "output", integer_attribute("transB", 1)) +
-      bytes(2, "constant") + tensor("weights", {outputs, width}, zeros) +
-      tensor("bias", {outputs}, output) + value_info(11, "input", {1, width, kCells, kCells}) +
-      value_info(12, "output", {1, outputs});
-  return number(1, 7) + bytes(7, graph) + bytes(8, number(2, 12));
+  graph += node("GlobalAveragePool", {"seen"}, "pooled") +
+           node("Flatten", {"pooled"}, "flat", integer_attribute("axis", 1)) +
+           node("Gemm", {"flat", "weights", "bias"}, "output", integer_attribute("transB", 1)) +
+           bytes(2, "constant") + tensor("weights", {outputs, width}, zeros) +
+           tensor("bias", {outputs}, output) + value_info(12, "output", {1, outputs});
+  return number(1, 7) + bytes(7, graph) + bytes(8, number(2, 12)) +
+         bytes(8, bytes(1, kOperationDomain) + number(2, 1));
 }
 
 }  // namespace sketchloc::testing

@@ -54,8 +54,9 @@ TEST(ResidualLoss, SpreadIsTheLikelihoodOfTheWhitening) {
     error(i) =
         pose[0][i].item<double>() - numbers[static_cast<std::size_t>(ResidualOutput::kPose + i)];
   }
+  // Student's t with 4 degrees of freedom; its scale matrix is half of its covariance.
   const double expected =
-      0.5 * (whitening * error).squaredNorm() - std::log(whitening.determinant());
+      4.0 * std::log1p((whitening * error).squaredNorm() / 2.0) - std::log(whitening.determinant());
   EXPECT_NEAR(loss.spread.item<double>(), expected, 1e-4);
 }
 

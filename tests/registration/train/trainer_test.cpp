@@ -8,7 +8,7 @@
 #include <opencv2/dnn.hpp>
 #include <stdexcept>
 
-#include "registration/detail/correlation_layer.hpp"
+#include "registration/detail/match_layer.hpp"
 
 namespace sketchloc {
 namespace {
@@ -85,14 +85,24 @@ TEST_P(TrainerOf, ExportsWhatOpenCvComputesTheSame) {
   Trainer trainer(plan(), TrainerParams{});
   learn(trainer, 0, 4);
   const std::string onnx = onnx_bytes(trainer.folded());
-  detail::register_correlation_layer();
+  detail::register_match_layer();
   cv::dnn::Net network = cv::dnn::readNetFromONNX(onnx.data(), onnx.size());
   const SampleBatch& batch = data()[0];
   const std::vector<float> expected = trainer.predict(batch);
   const int channels = channels_of(input_of(GetParam()));
+  const auto matches = GetParam() == NetworkKind::Ours;
+  const int scan_channels = matches ? scan_channels_of(input_of(GetParam())) : 0;
   for (const int count : {1, 4}) {
     const std::vector<int> shape = {count, channels, kSample.cells, kSample.cells};
-    network.setInput(cv::Mat(shape, CV_32F, const_cast<float*>(batch.input.data())));
+    const cv::Mat stacked(shape, CV_32F, const_cast<float*>(batch.input.data()));
+    const auto part = [&](int from, int to) {
+      return stacked({cv::Range::all(), cv::Range(from, to), cv::Range::all(), cv::Range::all()})
+          .clone();
+    };
+    if (matches) {
+      network.setInput(part(0, scan_channels), kScanInput);
+    }
+    network.setInput(part(scan_channels, channels), matches ? kDrawingInput : kStackedInput);
     const cv::Mat output = network.forward();
     ASSERT_EQ(output.total() * static_cast<std::size_t>(batch.count),
               expected.size() * static_cast<std::size_t>(count));
