@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "motion/check.hpp"
@@ -30,11 +31,24 @@ std::optional<Eigen::Vector2d> strain_of(const Warp& warp) {
                       : Eigen::Vector2d::Zero();
 }
 
+/// The density of a right registration at the pose that it states, over that of a wrong one: the
+/// room that it could have been found in, in units of its own covariance (m, m, rad, log scale).
+double peak_of(const Eigen::Matrix4d& covariance, const PoseTrust& trust) {
+  const double room = std::numbers::pi * trust.reach_m * trust.reach_m * 2.0 * trust.reach_rad *
+                      2.0 * trust.reach_log_scale;
+  const double own =
+      4.0 * std::numbers::pi * std::numbers::pi * std::sqrt(covariance.determinant());
+  return std::clamp(room / own, 1.0, trust.max_peak);
+}
+
 }  // namespace
 
 void validate(const PoseTrust& trust) {
   require_above("inflation", trust.inflation, 0.0);
-  require_at_least("peak", trust.peak, 1.0);
+  require_above("reach_m", trust.reach_m, 0.0);
+  require_above("reach_rad", trust.reach_rad, 0.0);
+  require_above("reach_log_scale", trust.reach_log_scale, 0.0);
+  require_at_least("max_peak", trust.max_peak, 1.0);
   require_in_range("max_probability", trust.max_probability, 1e-6, 1.0 - 1e-6);
   require_above("min_position_m", trust.min_position_m, 0.0);
   require_above("min_heading_rad", trust.min_heading_rad, 0.0);
@@ -51,17 +65,17 @@ PoseLikelihood pose_likelihood(const Registration& registration, const PoseTrust
                               trust.min_log_scale);
   Eigen::Matrix4d covariance = *registration.covariance * (trust.inflation * trust.inflation);
   covariance.diagonal() += least.cwiseAbs2();
+  covariance /= share;
   Eigen::Matrix4d sketch_from_error = Eigen::Matrix4d::Identity();
   sketch_from_error.topLeftCorner<2, 2>() = pose.scaled_rotation_matrix();
   const double probability = std::min(registration.inlier_probability, trust.max_probability);
   const std::optional<Eigen::Vector2d> strain = strain_of(registration.warp);
-  const double outlier = std::pow(1.0 - probability, share);
   return {.mean = {pose.x(), pose.y(), pose.yaw_rad(), std::log(pose.scale())},
-          .covariance = sketch_from_error * covariance * sketch_from_error.transpose() / share,
+          .covariance = sketch_from_error * covariance * sketch_from_error.transpose(),
           .strain = strain.value_or(Eigen::Vector2d::Zero()),
           .strain_sigma = strain ? trust.strain_sigma / std::sqrt(share) : kNoIdea,
-          .outlier = outlier,
-          .inlier = std::pow(1.0 - probability + probability * trust.peak, share) - outlier};
+          .outlier = 1.0 - probability,
+          .inlier = probability * peak_of(covariance, trust)};
 }
 
 }  // namespace sketchloc

@@ -11,7 +11,8 @@ namespace sketchloc {
 /// normalised:
 ///   L(x, s) = outlier + inlier exp(-(x - mean)^T covariance^-1 (x - mean) / 2
 ///                                  - |s - strain|^2 / (2 strain_sigma^2)),
-/// the difference in heading wrapped. A registration that is wrong says nothing.
+/// the difference in heading wrapped. A registration that is wrong says nothing: it lies anywhere
+/// that it could have been found.
 struct PoseLikelihood {
   Eigen::Vector4d mean = Eigen::Vector4d::Zero();
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Identity();
@@ -23,10 +24,13 @@ struct PoseLikelihood {
 
 /// How far a registration is believed.
 struct PoseTrust {
-  double inflation = 1.0;  ///< of its standard deviations, > 0
-  double peak =
-      5.0;  ///< of its likelihood at the pose it states, where it is right; 1: where wrong
-  double max_probability = 0.95;  ///< no registration is righter than this, in (0, 1)
+  double inflation = 1.0;         ///< of its standard deviations, > 0
+  double reach_m = 3.0;           ///< a wrong one lies anywhere so far from its prior, > 0
+  double reach_rad = 0.8;         ///< and turned by so much, > 0
+  double reach_log_scale = 0.5;   ///< and scaled, > 0
+  double max_peak = 100.0;        ///< a right one counts no more, at its pose, than a wrong one
+                                  ///< times this, >= 1
+  double max_probability = 0.8;  ///< no registration is righter than this, in (0, 1)
   double min_position_m = 0.05;   ///< what no registration tells, 1-sigma, > 0
   double min_heading_rad = 0.02;
   double min_log_scale = 0.02;
@@ -36,7 +40,10 @@ struct PoseTrust {
 template <typename Visitor>
 void visit_fields(PoseTrust& trust, Visitor&& visit) {
   visit("inflation", trust.inflation);
-  visit("peak", trust.peak);
+  visit("reach_m", trust.reach_m);
+  visit("reach_rad", trust.reach_rad);
+  visit("reach_log_scale", trust.reach_log_scale);
+  visit("max_peak", trust.max_peak);
   visit("max_probability", trust.max_probability);
   visit("min_position_m", trust.min_position_m);
   visit("min_heading_rad", trust.min_heading_rad);
@@ -48,8 +55,7 @@ void visit_fields(PoseTrust& trust, Visitor&& visit) {
 void validate(const PoseTrust& trust);
 
 /// `share`: how much of the registration is new, in (0, 1]; the rest errs as the one before did, so
-/// the likelihood counts as its power of this: floor and peak to that power, the Gaussian widened.
-/// The registration has a covariance.
+/// the Gaussian counts as its power of this: it is widened. The registration has a covariance.
 PoseLikelihood pose_likelihood(const Registration& registration, const PoseTrust& trust,
                                double share);
 

@@ -24,7 +24,7 @@ struct FusionParams {
   double way_m = 0.4;     ///< between registrations, > 0
   double turn_rad = 0.5;  ///< or turned by this much, > 0
   double independent_way_m =
-      2.0;  ///< way after which a registration knows nothing of the last, > 0
+      1.0;  ///< way after which a registration knows nothing of the last, > 0
   double independent_turn_rad = 3.0;  ///< or turned by this much, > 0
   int max_modes = 2;                  ///< registered, the heaviest ones, in [1, 16]
   double mode_radius_m = 3.0;         ///< a particle this near to a mode belongs to it, > 0
