@@ -39,7 +39,7 @@ void add_ablate_command(CLI::App& program) {
   option("--seeds", options->seeds, "Not for registration: runs of the filter on each set")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  add_parameter_options(*command, to_config(AblateParams{}), options->parameters);
+  add_parameter_options(*command, suite_config({}), options->parameters);
   command->add_option("--out", options->out, "Folder of the results")
       ->required()
       ->group(kOutputGroup)

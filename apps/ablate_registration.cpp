@@ -14,6 +14,7 @@
 #include "apps/output_folder.hpp"
 #include "apps/parallel.hpp"
 #include "apps/progress.hpp"
+#include "apps/ranks.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "eval/registration_page.hpp"
 #include "eval/registration_picture.hpp"
@@ -38,9 +39,8 @@ NamedMethod method_of(const std::string& name, const AblateOptions& options) {
   if (name == "none") {
     return {.name = name, .method = {}, .network = {}};
   }
-  const auto names = names_of(RegistrationMethod{});
-  const auto found = std::ranges::find(names, name, [](const auto& one) { return one.first; });
-  if (found == names.end()) {
+  const auto found = registration_methods().find(name);
+  if (found == registration_methods().end()) {
     throw std::invalid_argument("--methods: there is no " + name +
                                 "; there are ours, chen20, affine, icp and none");
   }
@@ -144,7 +144,7 @@ class RegistrationAblation {
  public:
   explicit RegistrationAblation(const AblateOptions& options)
       : options_(options),
-        params_(parameters_from<AblateParams>(options.parameters)),
+        params_(suite_parameters(options.parameters)),
         methods_(methods_of(options)),
         tasks_(simulated_tasks(params_.registration, options.seed)) {
     std::size_t index = 0;
@@ -183,7 +183,7 @@ class RegistrationAblation {
   }
 
   const std::vector<RegistrationTrial>& trials() const { return trials_; }
-  ConfigNode parameters() const { return to_config(params_); }
+  ConfigNode parameters() const { return suite_config(params_); }
 
  private:
   std::vector<RegistrationTrial> run_one(const RegistrationTask& task) const {
@@ -246,6 +246,9 @@ class RegistrationAblation {
 }  // namespace
 
 void run_registration_suite(const AblateOptions& options) {
+  if (processes_started() > 1) {
+    throw std::invalid_argument("--suite registration runs in one process; leave out mpirun");
+  }
   OutputFolder out(options.out, options.force);
   RegistrationAblation ablation(options);
   const RegistrationPage page = ablation.run();

@@ -2,11 +2,10 @@
 
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
 #include <set>
 #include <stdexcept>
-#include <string_view>
 
+#include "apps/given_network.hpp"
 #include "apps/inputs.hpp"
 #include "apps/result_files.hpp"
 #include "datasets/io/reference_io.hpp"
@@ -48,6 +47,16 @@ RecordedSet recorded_set(const std::string& text) {
 
 }  // namespace
 
+ConfigNode suite_config(const AblateParams& params) {
+  return without(to_config(params),
+                 {"filter.localizer.fusion.propose", "filter.localizer.fusion.measure"});
+}
+
+AblateParams suite_parameters(const ParameterOptions& options) {
+  const ConfigNode stated = stated_over(suite_config({}), options);
+  return from_config<AblateParams>(overlaid(to_config(AblateParams{}), stated));
+}
+
 FilterData RecordedSet::read() const {
   FilterData data{
       .sketch = read_drawing_input(drawing, {}), .run = read_log_input(log, {}), .reference = {}};
@@ -85,10 +94,7 @@ fs::path network_given(const AblateOptions& options, const std::string& method) 
     if (equals == given.npos || equals == 0) {
       throw std::invalid_argument("--network " + given + ": give METHOD=FILE.onnx");
     }
-    const auto names = names_of(RegistrationMethod{});
-    if (std::ranges::none_of(names, [&](const auto& one) {
-          return one.first == std::string_view(given).substr(0, equals);
-        })) {
+    if (!registration_methods().contains(given.substr(0, equals))) {
       throw std::invalid_argument("--network " + given + ": METHOD is ours, chen20 or affine");
     }
     if (given.substr(0, equals) == method) {

@@ -46,6 +46,11 @@ void visit_fields(AblateParams& params, Visitor&& visit) {
   visit("filter", params.filter);
 }
 
+/// What people may set, and what run.yaml records: all but what the rows of the filter suites
+/// decide.
+ConfigNode suite_config(const AblateParams& params);
+AblateParams suite_parameters(const ParameterOptions& options);
+
 /// A recorded run to ask about, read when it is needed. Text: DRAWING,LOG,REFERENCE.csv[,NAME
 /// [,ALTERNATIVE.csv]]; NAME as KIND/NAME puts runs of one kind into one row.
 struct RecordedSet {

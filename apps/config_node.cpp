@@ -181,6 +181,19 @@ void set_value(ConfigNode& node, std::string_view path, ConfigNode value) {
   *at = std::move(value);
 }
 
+ConfigNode without(ConfigNode node, const std::vector<std::string>& paths) {
+  for (const std::string& path : paths) {
+    const std::size_t dot = path.find('.');
+    if (dot != path.npos) {
+      ConfigNode& part = node.child(path.substr(0, dot));
+      part = without(std::move(part), {path.substr(dot + 1)});
+    } else {
+      std::erase_if(node.children, [&](const auto& child) { return child.first == path; });
+    }
+  }
+  return node;
+}
+
 ConfigNode overlaid(ConfigNode base, const ConfigNode& top) {
   if (top.is_map) {
     overlay(base, top, "", value_paths(base));

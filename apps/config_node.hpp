@@ -36,6 +36,9 @@ std::vector<std::string> value_paths(const ConfigNode& node);
 /// Sets the value at a path, with the maps on the way.
 void set_value(ConfigNode& node, std::string_view path, ConfigNode value);
 
+/// The tree without what is at these paths.
+ConfigNode without(ConfigNode node, const std::vector<std::string>& paths);
+
 /// `base` with every value that `top` states. Throws std::invalid_argument, naming source and
 /// nearest known key, where `top` has a key that `base` has not, or a map in place of a value.
 ConfigNode overlaid(ConfigNode base, const ConfigNode& top);

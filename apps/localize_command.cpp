@@ -33,12 +33,6 @@ const std::map<std::string, Method> kMethods = {
 constexpr const char* kNoRegistration = "none";
 constexpr const char* kSaysHowSureItIs = "ours";
 
-const std::map<std::string, RegistrationMethod>& registration_methods() {
-  static const auto names = names_of(RegistrationMethod{});
-  static const std::map<std::string, RegistrationMethod> methods(names.begin(), names.end());
-  return methods;
-}
-
 const std::map<std::string, OdometrySource> kOdometrySources = {
     {"matched", OdometrySource::Matched}, {"raw", OdometrySource::Raw}};
 

@@ -1,57 +1,23 @@
 #include "apps/parallel.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <exception>
-#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace sketchloc {
 namespace {
 
-/// What the threads share.
-struct Shared {
-  std::atomic<std::size_t> next = 0;
-  std::atomic<bool> stop = false;
-  std::mutex mutex;
-  std::condition_variable changed;
-  std::size_t finished = 0;              ///< under the mutex
-  std::exception_ptr failure = nullptr;  ///< under the mutex
-};
-
-void run_worker(Shared& shared, std::size_t count, const std::function<void(std::size_t)>& work) {
-  while (!shared.stop) {
-    const std::size_t piece = shared.next++;
-    if (piece >= count) {
-      return;
+void run_worker(PieceQueue& queue, const Hire& hire) {
+  try {
+    const Worker work = hire();
+    while (const std::optional<std::size_t> piece = queue.take()) {
+      work(*piece);
+      queue.finish();
     }
-    std::exception_ptr failure;
-    try {
-      work(piece);
-    } catch (...) {
-      failure = std::current_exception();
-      shared.stop = true;
-    }
-    const std::scoped_lock lock(shared.mutex);
-    ++shared.finished;
-    shared.failure = shared.failure ? shared.failure : failure;
-    shared.changed.notify_one();
-  }
-}
-
-/// Reports until everything is finished or failed; wakes up now and then, so that `done` can
-/// notice an interrupt.
-void report(Shared& shared, std::size_t count, const std::function<void(std::size_t)>& done) {
-  std::unique_lock lock(shared.mutex);
-  while (shared.finished < count && !shared.failure) {
-    shared.changed.wait_for(lock, std::chrono::milliseconds(100));
-    const std::size_t finished = shared.finished;
-    lock.unlock();
-    done(finished);
-    lock.lock();
+  } catch (...) {
+    queue.fail(std::current_exception());
   }
 }
 
@@ -61,25 +27,62 @@ unsigned thread_count(unsigned jobs) {
   return jobs > 0 ? jobs : std::max(1U, std::thread::hardware_concurrency());
 }
 
-void work_in_parallel(std::size_t count, unsigned jobs,
-                      const std::function<void(std::size_t)>& work,
-                      const std::function<void(std::size_t)>& done) {
-  Shared shared;
-  {
-    std::vector<std::jthread> workers;
-    for (std::size_t i = 0; i < std::min<std::size_t>(thread_count(jobs), count); ++i) {
-      workers.emplace_back([&] { run_worker(shared, count, work); });
-    }
+std::optional<std::size_t> PieceQueue::take() {
+  const std::scoped_lock lock(mutex_);
+  return stopped_ || next_ == count_ ? std::nullopt : std::optional(next_++);
+}
+
+void PieceQueue::finish() {
+  const std::scoped_lock lock(mutex_);
+  ++finished_;
+  changed_.notify_one();
+}
+
+void PieceQueue::fail(std::exception_ptr failure) {
+  const std::scoped_lock lock(mutex_);
+  stopped_ = true;
+  failure_ = failure_ ? failure_ : std::move(failure);
+  changed_.notify_one();
+}
+
+void PieceQueue::stop() {
+  const std::scoped_lock lock(mutex_);
+  stopped_ = true;
+}
+
+void PieceQueue::wait(const std::function<void(std::size_t)>& done) {
+  std::unique_lock lock(mutex_);
+  while (finished_ < count_ && !failure_) {
+    changed_.wait_for(lock, std::chrono::milliseconds(100));
+    const std::size_t finished = finished_;
+    lock.unlock();
     try {
-      report(shared, count, done);
+      done(finished);
     } catch (...) {
-      shared.stop = true;
-      throw;  // after the workers have ended their pieces
+      stop();
+      throw;
     }
+    lock.lock();
   }
-  if (shared.failure) {
-    std::rethrow_exception(shared.failure);
+  if (failure_) {
+    std::rethrow_exception(failure_);
   }
+}
+
+void work_through(PieceQueue& queue, unsigned jobs, const Hire& hire,
+                  const std::function<void(std::size_t)>& done) {
+  std::vector<std::jthread> workers;
+  for (std::size_t i = 0; i < std::min<std::size_t>(thread_count(jobs), queue.count()); ++i) {
+    workers.emplace_back([&] { run_worker(queue, hire); });
+  }
+  queue.wait(done);
+}
+
+void work_in_parallel(std::size_t count, unsigned jobs, const Worker& work,
+                      const std::function<void(std::size_t)>& done) {
+  PieceQueue queue(count);
+  work_through(
+      queue, jobs, [&] { return work; }, done);
 }
 
 }  // namespace sketchloc

@@ -1,6 +1,7 @@
 #include "apps/parameter_options.hpp"
 
 #include <CLI/CLI.hpp>
+#include <utility>
 
 #include "apps/program.hpp"
 
@@ -33,6 +34,13 @@ void add_parameter_options(CLI::App& command, const std::function<ConfigNode()>&
     };
     command.add_option_function<std::string>(flag, set)->group("");  // not in --help
   }
+}
+
+ConfigNode stated_over(ConfigNode defaults, const ParameterOptions& options) {
+  if (!options.config_file.empty()) {
+    defaults = overlaid(std::move(defaults), read_config(options.config_file));
+  }
+  return overlaid(std::move(defaults), options.flags);
 }
 
 }  // namespace sketchloc

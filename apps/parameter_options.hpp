@@ -27,15 +27,15 @@ void add_parameter_options(CLI::App& command, const ConfigNode& defaults,
 void add_parameter_options(CLI::App& command, const std::function<ConfigNode()>& defaults,
                            ParameterOptions& options);
 
+/// `defaults`, replaced by what the --config file and the flags say, in this order. Unknown names
+/// throw std::invalid_argument with source and advice.
+ConfigNode stated_over(ConfigNode defaults, const ParameterOptions& options);
+
 /// The parameters with precedence default < --config file < flag. Unknown names, wrong types and
 /// values out of range throw std::invalid_argument with source, parameter and advice.
 template <ParameterStruct T>
 T parameters_from(const ParameterOptions& options, const T& defaults = {}) {
-  ConfigNode node = to_config(defaults);
-  if (!options.config_file.empty()) {
-    node = overlaid(node, read_config(options.config_file));
-  }
-  return from_config<T>(overlaid(node, options.flags));
+  return from_config<T>(stated_over(to_config(defaults), options));
 }
 
 }  // namespace sketchloc

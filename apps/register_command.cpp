@@ -39,12 +39,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::map<std::string, RegistrationMethod>& methods() {
-  static const auto names = names_of(RegistrationMethod{});
-  static const std::map<std::string, RegistrationMethod> methods(names.begin(), names.end());
-  return methods;
-}
-
 /// The scan that was asked for, as an index.
 std::size_t chosen_step(const RegisterOptions& options, const Run& run) {
   if (run.steps.empty()) {
@@ -234,7 +228,7 @@ RunDescription description_of(const RegisterOptions& options, const RegisterPara
   add("scan", options.time_s ? "" : std::to_string(options.scan.value_or(0)));
   add("time", options.time_s ? number_text(*options.time_s) : "");
   add("prior", options.prior);
-  add("method", name_of(methods(), options.method));
+  add("method", name_of(registration_methods(), options.method));
   add("network", options.network.string());
   add("single-scan", options.single_scan ? "true" : "");
   add("max-range-m",
@@ -260,7 +254,7 @@ std::vector<NamedText> titles(const RegisterOptions& options) {
   return {{"drawing", options.map.filename().string()},
           {"log", options.log.filename().string()},
           {"prior", options.prior},
-          {"method", name_of(methods(), options.method)}};
+          {"method", name_of(registration_methods(), options.method)}};
 }
 
 void add_algorithm_options(CLI::App& command, RegisterOptions& options) {
@@ -290,7 +284,7 @@ void add_algorithm_options(CLI::App& command, RegisterOptions& options) {
       ->check(
           [](const std::string& text) { return parse_start_pose(text, "--prior"), std::string(); })
       ->type_name("X,Y,HEADING_DEG[,PX_PER_M]");
-  add_named_option(command, "--method", options.method, methods(),
+  add_named_option(command, "--method", options.method, registration_methods(),
                    "ours, chen20 (the published network), affine (the same without bending) or "
                    "icp; the middle two look at one scan only")
       ->group(kAlgorithmGroup);

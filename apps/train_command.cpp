@@ -6,11 +6,10 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
-#include <sstream>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "apps/parameter_options.hpp"
 #include "apps/program.hpp"
 #include "apps/progress.hpp"
+#include "apps/read_bytes.hpp"
 #include "apps/run_file.hpp"
 #include "apps/training_curve.hpp"
 #include "datasets/io/atomic_file.hpp"
@@ -64,14 +64,12 @@ struct TrainOptions {
   ParameterOptions parameters;
 };
 
-std::string read_bytes(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  if (!stream) {
+std::string bytes_of(const fs::path& file) {
+  std::optional<std::string> bytes = read_bytes(file);
+  if (!bytes) {
     throw std::runtime_error(file.string() + ": cannot be read");
   }
-  return bytes.str();
+  return *std::move(bytes);
 }
 
 TrainParams parameters_of(const TrainOptions& options) {
@@ -163,7 +161,7 @@ class Training {
   std::unique_ptr<SampleSource> training_samples() const {
     SampleSource::Stream from = stream(SampleSplit::Training, trainer_.batches_learned());
     if (improves_priors(trainer_.batches_learned())) {
-      from.improving_network = read_bytes(options_.out / "network.onnx");
+      from.improving_network = bytes_of(options_.out / "network.onnx");
     }
     return std::make_unique<SampleSource>(params_.source, from, options_.workers);
   }
@@ -185,9 +183,9 @@ class Training {
   void open_folder() {
     const bool begun = fs::exists(options_.out / "checkpoint.pt");
     if (begun && options_.resume) {
-      trainer_.restore(read_bytes(options_.out / "checkpoint.pt"));
+      trainer_.restore(bytes_of(options_.out / "checkpoint.pt"));
       const fs::path curve = options_.out / "curve.csv";
-      curve_ = curve_until(fs::exists(curve) ? read_bytes(curve) : "", samples_learned());
+      curve_ = curve_until(fs::exists(curve) ? bytes_of(curve) : "", samples_learned());
       seconds_before_ = seconds_of_curve(curve_);
       spdlog::info("go on after {} samples", samples_learned());
       return;

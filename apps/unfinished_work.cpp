@@ -4,11 +4,9 @@
 #include <spdlog/spdlog.h>
 
 #include <cctype>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
-#include <system_error>
 
+#include "apps/read_bytes.hpp"
 #include "datasets/io/atomic_file.hpp"
 
 namespace sketchloc {
@@ -17,16 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kWhat = "what.yaml";
-
-std::optional<std::string> content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    return std::nullopt;
-  }
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return bytes.str();
-}
 
 /// Without a final separator, so that a suffix lands on the name.
 fs::path beside(const fs::path& out) {
@@ -39,7 +27,7 @@ fs::path beside(const fs::path& out) {
 
 UnfinishedWork::UnfinishedWork(const fs::path& out, const std::string& what)
     : folder_(beside(out)) {
-  const std::optional<std::string> before = content_of(folder_ / kWhat);
+  const std::optional<std::string> before = read_bytes(folder_ / kWhat);
   if (before && *before != what) {
     throw std::invalid_argument(folder_.string() +
                                 " holds the beginning of another comparison; give the options, the "
@@ -66,7 +54,7 @@ fs::path UnfinishedWork::file_of(const std::string& name) const {
 }
 
 std::optional<std::string> UnfinishedWork::find(const std::string& name) const {
-  return content_of(file_of(name));
+  return read_bytes(file_of(name));
 }
 
 void UnfinishedWork::keep(const std::string& name, const std::string& piece) {
@@ -80,15 +68,6 @@ void UnfinishedWork::finish() {
     }
   }
   fs::remove_all(folder_);  // what they are of goes last
-}
-
-std::string stamp_of(const fs::path& file) {
-  std::error_code error;
-  const auto size = fs::file_size(file, error);
-  const auto time = fs::last_write_time(file, error);
-  return error ? file.string() + ": not there\n"
-               : fmt::format("{}: {} bytes, {}\n", file.string(), size,
-                             time.time_since_epoch().count());
 }
 
 }  // namespace sketchloc

@@ -27,7 +27,4 @@ class UnfinishedWork {
   std::filesystem::path folder_;
 };
 
-/// A line that changes when a file does: its name, size and time.
-std::string stamp_of(const std::filesystem::path& file);
-
 }  // namespace sketchloc

@@ -37,14 +37,14 @@ std::span<const std::pair<std::string_view, RegistrationMethod>> names_of(Regist
   return kNames;
 }
 
-std::optional<PredictorKind> network_of(RegistrationMethod method) {
+std::optional<NetworkKind> network_of(RegistrationMethod method) {
   switch (method) {
     case RegistrationMethod::Ours:
-      return PredictorKind::Ours;
+      return NetworkKind::Ours;
     case RegistrationMethod::Chen20:
-      return PredictorKind::Chen20;
+      return NetworkKind::Chen20;
     case RegistrationMethod::Affine:
-      return PredictorKind::Affine;
+      return NetworkKind::Affine;
     case RegistrationMethod::Icp:
       return std::nullopt;
   }
@@ -59,7 +59,7 @@ bool takes_one_scan(RegistrationMethod method) {
 std::unique_ptr<WarpPredictor> make_predictor(RegistrationMethod method,
                                               std::optional<std::span<const std::uint8_t>> onnx,
                                               const NetworkPredictorParams& params) {
-  const std::optional<PredictorKind> kind = network_of(method);
+  const std::optional<NetworkKind> kind = network_of(method);
   if (!kind) {
     return make_without_network(method, onnx.has_value());
   }

@@ -22,7 +22,7 @@ enum class RegistrationMethod {
 std::span<const std::pair<std::string_view, RegistrationMethod>> names_of(RegistrationMethod);
 
 /// The network that a method runs; none: it runs none.
-std::optional<PredictorKind> network_of(RegistrationMethod method);
+std::optional<NetworkKind> network_of(RegistrationMethod method);
 
 /// Does the method look at the present scan only, whatever the submap?
 bool takes_one_scan(RegistrationMethod method);

@@ -18,13 +18,13 @@
 namespace sketchloc {
 namespace {
 
-std::size_t outputs_of(PredictorKind kind) {
+std::size_t outputs_of(NetworkKind kind) {
   switch (kind) {
-    case PredictorKind::Chen20:
+    case NetworkKind::Chen20:
       return PublishedOutput::kSplineSize;
-    case PredictorKind::Affine:
+    case NetworkKind::Affine:
       return PublishedOutput::kAffineSize;
-    case PredictorKind::Ours:
+    case NetworkKind::Ours:
       return ResidualOutput::kSize;
   }
   check(false, "a kind of predictor");
@@ -81,7 +81,7 @@ struct Planes {
 
 class NetworkPredictor final : public WarpPredictor {
  public:
-  NetworkPredictor(std::span<const std::uint8_t> onnx, PredictorKind kind,
+  NetworkPredictor(std::span<const std::uint8_t> onnx, NetworkKind kind,
                    const NetworkPredictorParams& params)
       : params_((validate(params), params)), kind_(kind) {
     try {
@@ -100,14 +100,12 @@ class NetworkPredictor final : public WarpPredictor {
   std::vector<std::optional<Registration>> predict(std::span<const PlacedScan> submap,
                                                    const SketchCropper& drawing,
                                                    std::span<const Sim2> priors) override {
-    return kind_ == PredictorKind::Ours ? predict_residual(submap, drawing, priors)
-                                        : predict_published(submap, drawing, priors);
+    return kind_ == NetworkKind::Ours ? predict_residual(submap, drawing, priors)
+                                      : predict_published(submap, drawing, priors);
   }
 
  private:
-  InputKind input_kind() const {
-    return kind_ == PredictorKind::Ours ? InputKind::Residual : InputKind::Published;
-  }
+  InputKind input_kind() const { return input_of(kind_); }
   std::size_t cells() const {
     return static_cast<std::size_t>(params_.window.cells * params_.window.cells);
   }
@@ -225,7 +223,7 @@ class NetworkPredictor final : public WarpPredictor {
     const std::vector<std::vector<float>> outputs = look(submap, drawing, priors, params_.window);
     for (std::size_t i = 0; i < priors.size(); ++i) {
       std::vector<float> sources = outputs[i];
-      if (kind_ == PredictorKind::Affine) {
+      if (kind_ == NetworkKind::Affine) {
         const auto spread = sources_of_affine(outputs[i]);
         sources.assign(spread.begin(), spread.end());
       }
@@ -244,7 +242,7 @@ class NetworkPredictor final : public WarpPredictor {
   }
 
   NetworkPredictorParams params_;
-  PredictorKind kind_;
+  NetworkKind kind_;
   cv::dnn::Net network_;
 };
 
@@ -259,7 +257,7 @@ void validate(const NetworkPredictorParams& params) {
 void run_networks_on_one_thread() { cv::setNumThreads(1); }
 
 std::unique_ptr<WarpPredictor> make_network_predictor(std::span<const std::uint8_t> onnx,
-                                                      PredictorKind kind,
+                                                      NetworkKind kind,
                                                       const NetworkPredictorParams& params) {
   return std::make_unique<NetworkPredictor>(onnx, kind, params);
 }

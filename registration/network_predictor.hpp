@@ -5,13 +5,10 @@
 #include <span>
 
 #include "registration/local_window.hpp"
+#include "registration/network_kind.hpp"
 #include "registration/warp_predictor.hpp"
 
 namespace sketchloc {
-
-/// The networks that `sketchloc train` makes: `Chen20` as published, `Affine` its sister without
-/// bending, `Ours`.
-enum class PredictorKind { Chen20, Affine, Ours };
 
 struct NetworkPredictorParams {
   LocalWindow window;         ///< of the first look: the one that the network was trained with
@@ -36,7 +33,7 @@ void run_networks_on_one_thread();
 /// batch. Not safe to share between threads. Throws std::runtime_error where the bytes are no
 /// network of that kind.
 std::unique_ptr<WarpPredictor> make_network_predictor(std::span<const std::uint8_t> onnx,
-                                                      PredictorKind kind,
+                                                      NetworkKind kind,
                                                       const NetworkPredictorParams& params = {});
 
 }  // namespace sketchloc

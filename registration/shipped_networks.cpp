@@ -32,21 +32,21 @@ SKETCHLOC_EMBED(affine);
 
 namespace sketchloc {
 
-std::span<const std::uint8_t> shipped_network(PredictorKind kind) {
+std::span<const std::uint8_t> shipped_network(NetworkKind kind) {
   switch (kind) {
-    case PredictorKind::Chen20:
+    case NetworkKind::Chen20:
 #ifdef SKETCHLOC_HAS_chen20
       return {sketchloc_chen20_begin, sketchloc_chen20_end};
 #else
       return {};
 #endif
-    case PredictorKind::Affine:
+    case NetworkKind::Affine:
 #ifdef SKETCHLOC_HAS_affine
       return {sketchloc_affine_begin, sketchloc_affine_end};
 #else
       return {};
 #endif
-    case PredictorKind::Ours:
+    case NetworkKind::Ours:
 #ifdef SKETCHLOC_HAS_ours
       return {sketchloc_ours_begin, sketchloc_ours_end};
 #else

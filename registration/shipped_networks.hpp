@@ -9,6 +9,6 @@ namespace sketchloc {
 
 /// The trained network of a kind that comes with the program, as the bytes of an ONNX file. Empty
 /// where there is none.
-std::span<const std::uint8_t> shipped_network(PredictorKind kind);
+std::span<const std::uint8_t> shipped_network(NetworkKind kind);
 
 }  // namespace sketchloc

@@ -23,7 +23,7 @@ const RegistrationSet& questions() {
 }
 
 /// A whole registration: rasters, crops, network, splines; on one thread. Arguments: priors, looks.
-void registration(benchmark::State& state, PredictorKind kind) {
+void registration(benchmark::State& state, NetworkKind kind) {
   run_networks_on_one_thread();
   if (shipped_network(kind).empty()) {
     state.SkipWithError("no such network comes with the program");
@@ -44,11 +44,11 @@ void registration(benchmark::State& state, PredictorKind kind) {
   }
 }
 
-BENCHMARK_CAPTURE(registration, ours, PredictorKind::Ours)
+BENCHMARK_CAPTURE(registration, ours, NetworkKind::Ours)
     ->ArgNames({"priors", "looks"})
     ->ArgsProduct({{1, 4}, {1, 2}})
     ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(registration, chen20, PredictorKind::Chen20)
+BENCHMARK_CAPTURE(registration, chen20, NetworkKind::Chen20)
     ->ArgNames({"priors", "looks"})
     ->ArgsProduct({{1, 4}, {1}})
     ->Unit(benchmark::kMillisecond);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "registration/correlation.hpp"
-#include "registration/network_input.hpp"
+#include "registration/network_kind.hpp"
 
 namespace sketchloc {
 
@@ -53,12 +53,6 @@ struct NetworkPlan {
 
 /// `Chen20`: 5 convolutions of stride 2, 2 of stride 1, 2 fully connected layers. `Affine`: the
 /// same with 6 outputs. `Ours`: features of scan and drawing are matched, then residual blocks.
-enum class NetworkKind { Chen20, Affine, Ours };
-
-constexpr InputKind input_of(NetworkKind kind) {
-  return kind == NetworkKind::Ours ? InputKind::Residual : InputKind::Published;
-}
-
 /// `cells`: a multiple of 32.
 NetworkPlan plan_network(NetworkKind kind, int cells);
 

@@ -143,7 +143,7 @@ class SampleSource::Work {
       return nullptr;
     }
     const auto* bytes = reinterpret_cast<const std::uint8_t*>(stream_.improving_network.data());
-    return make_network_predictor({bytes, stream_.improving_network.size()}, PredictorKind::Ours,
+    return make_network_predictor({bytes, stream_.improving_network.size()}, NetworkKind::Ours,
                                   {.window = params_.sample.window(),
                                    .looks = looks,
                                    .fine_side_m = std::sqrt(params_.sample.min_fine_side_m *

@@ -1,9 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +25,8 @@ namespace fs = std::filesystem;
 using testing::CommandResult;
 using testing::content_of;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
+using ::testing::Not;
 using testing::TemporaryDirectory;
 
 /// One building, one drawing, no sweeps; `ours` says that every prior is right.
@@ -97,43 +101,130 @@ TEST_F(AblateCommandEndToEnd, AsksAboutRecordedRuns) {
   EXPECT_THAT(result.out, HasSubstr("| home | chained | ours |"));
 }
 
-TEST_F(AblateCommandEndToEnd, ComparesWholeRuns) {
-  const auto run_suite = [&](const std::string& out, const std::string& jobs) {
-    return testing::run_command({SKETCHLOC_PROGRAM,
-                                 "ablate",
-                                 "--suite",
-                                 "filter",
-                                 "--methods",
-                                 "odometry,ours,mcl,mcl+both",
-                                 "--network",
-                                 "ours=" + in("ours.onnx"),
-                                 "--drives.plans",
-                                 "1",
-                                 "--drives.drawings",
-                                 "1",
-                                 "--drives.drive_m",
-                                 "3",
-                                 "--seeds",
-                                 "2",
-                                 "--jobs",
-                                 jobs,
-                                 "--out",
-                                 in(out)});
-  };
-  const CommandResult whole = run_suite("a", "1");
+/// Whole runs of 3 m in one building.
+class AblateWholeRunsEndToEnd : public AblateCommandEndToEnd {
+ protected:
+  std::vector<std::string> command_for(const std::string& suite, const std::string& out,
+                                       const std::vector<std::string>& more) const {
+    std::vector<std::string> command = {SKETCHLOC_PROGRAM,
+                                        "ablate",
+                                        "--suite",
+                                        suite,
+                                        "--network",
+                                        "ours=" + in("ours.onnx"),
+                                        "--drives.plans",
+                                        "1",
+                                        "--drives.drawings",
+                                        "1",
+                                        "--drives.drive_m",
+                                        "3",
+                                        "--out",
+                                        in(out)};
+    command.insert(command.end(), more.begin(), more.end());
+    return command;
+  }
+
+  CommandResult run_suite(const std::string& suite, const std::string& out,
+                          const std::vector<std::string>& more) const {
+    return testing::run_command(command_for(suite, out, more));
+  }
+
+  nlohmann::json rows_of(const std::string& out) const {
+    return nlohmann::json::parse(content_of(in(out + "/metrics.json")))["rows"];
+  }
+
+  void expect_same_results(const std::string& out, const std::string& other) const {
+    for (const char* file : {"metrics.json", "report.html", "trials.jsonl", "run.yaml"}) {
+      EXPECT_EQ(content_of(in(out + "/" + file)), content_of(in(other + "/" + file))) << file;
+    }
+  }
+
+  const std::vector<std::string> kTwoSeeds = {"--methods", "odometry,ours,mcl,mcl+both", "--seeds",
+                                              "2"};
+};
+
+std::vector<std::string> joined(std::vector<std::string> some,
+                                const std::vector<std::string>& more) {
+  some.insert(some.end(), more.begin(), more.end());
+  return some;
+}
+
+TEST_F(AblateWholeRunsEndToEnd, GivesTheSameForAnyNumberOfJobs) {
+  const CommandResult whole = run_suite("filter", "a", joined(kTwoSeeds, {"--jobs", "1"}));
   ASSERT_EQ(whole.exit_code, 0) << whole.err;
-  const auto rows = nlohmann::json::parse(content_of(in("a/metrics.json")))["rows"];
+  const auto rows = rows_of("a");
   ASSERT_EQ(rows.size(), 8U);  // tps and human
   EXPECT_EQ(rows[0]["method"], "odometry");
   EXPECT_EQ(rows[0]["trials"], 1);  // nothing in it is drawn
   EXPECT_EQ(rows[3]["trials"], 2);
   EXPECT_THAT(content_of(in("a/report.html")), HasSubstr("How long until it is lost?"));
+  EXPECT_THAT(content_of(in("a/run.yaml")), Not(HasSubstr("propose:")));  // the rows decide
   EXPECT_FALSE(fs::exists(in("a.unfinished")));
 
-  const CommandResult other = run_suite("b", "2");
+  const CommandResult other = run_suite("filter", "b", joined(kTwoSeeds, {"--jobs", "2"}));
   ASSERT_EQ(other.exit_code, 0) << other.err;
-  EXPECT_EQ(content_of(in("a/metrics.json")), content_of(in("b/metrics.json")));
+  expect_same_results("a", "b");
 }
+
+TEST_F(AblateWholeRunsEndToEnd, RefusesToGoOnWithSomethingElse) {
+  fs::create_directory(in("a.unfinished"));
+  std::ofstream(in("a.unfinished/what.yaml")) << "another program";
+  const CommandResult refused = run_suite("filter", "a", {"--methods", "odometry"});
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_THAT(refused.err, HasSubstr("beginning of another comparison"));
+  EXPECT_FALSE(fs::exists(in("a")));
+}
+
+TEST_F(AblateWholeRunsEndToEnd, LooksAtWhatMayGoWrong) {
+  const CommandResult result =
+      run_suite("robust", "a", {"--methods", "odometry,mcl", "--seeds", "1"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::set<std::string> kinds;
+  for (const auto& row : rows_of("a")) {
+    kinds.insert(row["kind"]);
+    EXPECT_GE(row["mean_error_m"]["mean"], 0.0);
+  }
+  EXPECT_THAT(kinds, IsSupersetOf({"plain", "odometry 40 %", "walls missing", "dropouts"}));
+  EXPECT_THAT(content_of(in("a/report.html")), HasSubstr("Ablation: robust"));
+}
+
+#ifdef SKETCHLOC_MPIRUN
+/// mpirun refuses root and more processes than cores, unless told otherwise.
+std::vector<std::string> mpirun(std::vector<std::string> first, std::vector<std::string> second) {
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
+  ::setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+  ::setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
+  std::vector<std::string> command = {SKETCHLOC_MPIRUN, "-n", "1"};
+  command = joined(command, first);
+  command = joined(command, {":", "-n", "1"});
+  return joined(command, second);
+}
+
+TEST_F(AblateWholeRunsEndToEnd, GivesTheSameInTwoProcesses) {
+  ASSERT_EQ(run_suite("filter", "a", joined(kTwoSeeds, {"--jobs", "1"})).exit_code, 0);
+  const auto command = command_for("filter", "b", joined(kTwoSeeds, {"--jobs", "1"}));
+  const CommandResult shared = testing::run_command(mpirun(command, command));
+  ASSERT_EQ(shared.exit_code, 0) << shared.err;
+  expect_same_results("a", "b");
+}
+
+TEST_F(AblateWholeRunsEndToEnd, EndsWhereAProcessIsAboutOtherWorkAndGoesOnLater) {
+  ASSERT_EQ(run_suite("filter", "a", joined(kTwoSeeds, {"--jobs", "1"})).exit_code, 0);
+  const auto command = command_for("filter", "b", joined(kTwoSeeds, {"--jobs", "1"}));
+  const CommandResult other =
+      testing::run_command(mpirun(command, joined(command, {"--filter.chain_way_m", "0.7"})));
+  EXPECT_NE(other.exit_code, 0);
+  EXPECT_THAT(other.err, HasSubstr("rank 1 has other options"));
+  EXPECT_FALSE(fs::exists(in("b")));
+  ASSERT_TRUE(fs::exists(in("b.unfinished")));
+  ASSERT_EQ(run_suite("filter", "b", joined(kTwoSeeds, {"--jobs", "1"})).exit_code, 0);
+  expect_same_results("a", "b");
+}
+#else
+TEST_F(AblateWholeRunsEndToEnd, GivesTheSameInTwoProcesses) {
+  GTEST_SKIP() << "built without SKETCHLOC_MPI";
+}
+#endif
 
 TEST_F(AblateCommandEndToEnd, SaysWhatIsWrongWithItsInputs) {
   const auto refuses = [&](const std::vector<std::string>& more, const std::string& why) {

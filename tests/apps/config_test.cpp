@@ -128,6 +128,13 @@ TEST_F(Config, ListsThePathsOfItsValues) {
                           "recover", "title"));
 }
 
+TEST_F(Config, LeavesOutWhatSomethingElseDecides) {
+  const ConfigNode node = without(to_config(Settings{}), {"beams.count", "particles"});
+  EXPECT_EQ(node.find("particles"), nullptr);
+  EXPECT_EQ(node.find("beams")->find("count"), nullptr);
+  EXPECT_NE(node.find("beams")->find("sigma_log"), nullptr);
+}
+
 TEST_F(Config, NamesAnUnknownParameterItsLineAndTheNearestKnownOne) {
   EXPECT_THAT(error_of("particles: 10\nbeams:\n  sigmalog: 1\n"),
               EndsWith("tune.yaml:3: unknown parameter beams.sigmalog; did you mean "

@@ -14,14 +14,16 @@ namespace {
 using testing::CommandResult;
 using testing::TemporaryDirectory;
 
-TEST(DemoCommandEndToEnd, FindsTheRobotToTheEndAndReplacesItsOwnResult) {
+TEST(DemoCommandEndToEnd, FindsTheRobotToTheEndAndReplacesAnEarlierResult) {
   const TemporaryDirectory folder;
   const std::filesystem::path out = folder / "demo";
-  for (int time = 0; time < 2; ++time) {
-    const CommandResult demo =
-        testing::run_command({SKETCHLOC_PROGRAM, "demo", "--out", out.string()});
-    ASSERT_EQ(demo.exit_code, 0) << demo.err;
-  }
+  std::filesystem::create_directory(out);
+  std::ofstream(out / "run.yaml") << "a folder with this file is a result\n";
+  std::ofstream(out / "earlier.txt") << "goes\n";
+  const CommandResult demo =
+      testing::run_command({SKETCHLOC_PROGRAM, "demo", "--out", out.string()});
+  ASSERT_EQ(demo.exit_code, 0) << demo.err;
+  EXPECT_FALSE(std::filesystem::exists(out / "earlier.txt"));
   const auto metrics = nlohmann::json::parse(std::ifstream(out / "metrics.json"));
   EXPECT_FALSE(metrics["lost_at_end"]);
   EXPECT_GT(metrics["share_within_2_m"], 0.9);

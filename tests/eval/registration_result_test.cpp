@@ -125,7 +125,7 @@ TEST(Predictors, OfThePublishedKindTakeOneScan) {
   EXPECT_TRUE(takes_one_scan(RegistrationMethod::Chen20));
   EXPECT_TRUE(takes_one_scan(RegistrationMethod::Affine));
   EXPECT_FALSE(takes_one_scan(RegistrationMethod::Ours));
-  EXPECT_EQ(network_of(RegistrationMethod::Affine), PredictorKind::Affine);
+  EXPECT_EQ(network_of(RegistrationMethod::Affine), NetworkKind::Affine);
   EXPECT_FALSE(network_of(RegistrationMethod::Icp).has_value());
 }
 

@@ -8,6 +8,7 @@
 #include "eval/registration_suite.hpp"
 #include "eval/registration_summary.hpp"
 #include "motion/angles.hpp"
+#include "tests/support/similarity_registration.hpp"
 
 namespace sketchloc {
 namespace {
@@ -32,17 +33,9 @@ class ShiftingPredictor final : public WarpPredictor {
     last_submap_size = submap.size();
     std::vector<std::optional<Registration>> results;
     for (const Sim2& prior : priors) {
-      const std::vector<Eigen::Vector2d> points = {{0, 0}, {1, 0}, {0, 1}, {1, 1}};
-      std::vector<Eigen::Vector2d> places;
-      const Sim2 pose = prior * Se2::from_xy_yaw(shift_m_, 0.0, 0.0);
-      for (const Eigen::Vector2d& point : points) {
-        places.push_back(pose * point);
-      }
       results.push_back(
-          Registration{.warp = *Warp::from_robot_points(points, places),
-                       .sketch_from_robot = pose,
-                       .covariance = Eigen::Matrix4d(0.01 * Eigen::Matrix4d::Identity()),
-                       .inlier_probability = 0.9});
+          testing::similarity_registration(prior * Se2::from_xy_yaw(shift_m_, 0.0, 0.0), 0.1));
+      results.back()->inlier_probability = 0.9;
     }
     return results;
   }

@@ -13,6 +13,7 @@
 #include "registration/ray_caster.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/matchers.hpp"
+#include "tests/support/similarity_registration.hpp"
 
 namespace sketchloc {
 namespace {
@@ -208,18 +209,11 @@ class KnowsTheWay final : public WarpPredictor {
                                                    const SketchCropper&,
                                                    std::span<const Sim2> priors) override {
     const auto step = static_cast<std::size_t>(submap.front().scan->time_s);
-    const Sim2& pose = drive_.sketch_from_robot[step];
-    const std::vector<Eigen::Vector2d> points = {{-5, -5}, {5, -5}, {5, 5}, {-5, 5}};
-    std::vector<Eigen::Vector2d> places;
-    for (const Eigen::Vector2d& point : points) {
-      places.push_back(pose * point);
-    }
     ++looks;
-    return {priors.size(),
-            Registration{.warp = *Warp::from_robot_points(points, places),
-                         .sketch_from_robot = pose,
-                         .covariance = Eigen::Matrix4d(0.04 * Eigen::Matrix4d::Identity()),
-                         .inlier_probability = 0.9}};
+    Registration registration =
+        testing::similarity_registration(drive_.sketch_from_robot[step], 0.2);
+    registration.inlier_probability = 0.9;
+    return {priors.size(), registration};
   }
 
   int looks = 0;

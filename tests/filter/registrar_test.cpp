@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "registration/control_grid.hpp"
+#include "tests/support/similarity_registration.hpp"
 
 namespace sketchloc {
 namespace {
@@ -20,15 +20,7 @@ class Recorder final : public WarpPredictor {
     asked.assign(priors.begin(), priors.end());
     std::vector<std::optional<Registration>> results;
     for (const Sim2& prior : priors) {
-      const std::vector<Eigen::Vector2d> points =
-          square_lattice(kControlsPerSide, 10.0, Eigen::Vector2d::Zero());
-      std::vector<Eigen::Vector2d> places;
-      for (const Eigen::Vector2d& point : points) {
-        places.push_back(prior * point);
-      }
-      results.push_back(Registration{.warp = *Warp::from_robot_points(points, places),
-                                     .sketch_from_robot = prior,
-                                     .covariance = Eigen::Matrix4d(Eigen::Matrix4d::Identity())});
+      results.push_back(testing::similarity_registration(prior, 1.0));
     }
     if (knows_no_covariance && !results.empty()) {
       results.front()->covariance = std::nullopt;

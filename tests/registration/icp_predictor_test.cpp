@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "motion/angles.hpp"
-#include "registration/ray_caster.hpp"
 #include "tests/support/matchers.hpp"
+#include "tests/support/simulated_scan.hpp"
 
 namespace sketchloc {
 namespace {
@@ -50,24 +50,6 @@ Grid<std::uint8_t> room() {
     }
   }
   return occupied;
-}
-
-Scan scan_in(const Grid<std::uint8_t>& occupied, const Sim2& sketch_from_robot) {
-  constexpr std::size_t kBeams = 720;
-  Scan scan{.first_angle_rad = -rad_from_deg(180.0),
-            .angle_step_rad = rad_from_deg(0.5),
-            .max_range_m = 30.0,
-            .robot_from_laser = {},
-            .ranges_m = std::vector<float>(kBeams)};
-  std::vector<float> headings_rad(kBeams);
-  for (std::size_t beam = 0; beam < kBeams; ++beam) {
-    headings_rad[beam] = static_cast<float>(sketch_from_robot.yaw_rad() + scan.angle_rad(beam));
-  }
-  RayCaster(occupied).cast(sketch_from_robot.translation(), headings_rad, 600.0F, scan.ranges_m);
-  for (float& range : scan.ranges_m) {
-    range = (range + 0.5F) / static_cast<float>(kPxPerM);  // middle of the line
-  }
-  return scan;
 }
 
 /// What must be so in every build.
@@ -113,7 +95,7 @@ class IcpPredictorOnATrueDrawing : public ::testing::Test {
   const Grid<std::uint8_t> occupied_ = room();
   const SketchCropper drawing_{occupied_};
   const Sim2 truth_ = Sim2::from_xy_yaw_scale(90.0, 75.0, 0.4, kPxPerM);
-  const Scan scan_ = scan_in(occupied_, truth_);
+  const Scan scan_ = testing::simulated_scan(occupied_, truth_, 720);
   const std::vector<PlacedScan> submap_ = {{.scan = &scan_}};
 };
 

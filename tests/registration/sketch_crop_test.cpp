@@ -9,6 +9,7 @@
 
 #include "motion/angles.hpp"
 #include "registration/scan_raster.hpp"
+#include "tests/support/simulated_scan.hpp"
 
 namespace sketchloc {
 namespace {
@@ -35,24 +36,6 @@ Grid<std::uint8_t> room() {
   return occupied;
 }
 
-Scan scan_in(const Grid<std::uint8_t>& occupied, const Sim2& sketch_from_robot) {
-  constexpr std::size_t kBeams = 360;
-  Scan scan{.first_angle_rad = -rad_from_deg(180.0),
-            .angle_step_rad = rad_from_deg(1.0),
-            .max_range_m = 30.0,
-            .robot_from_laser = {},
-            .ranges_m = std::vector<float>(kBeams)};
-  std::vector<float> headings_rad(kBeams);
-  for (std::size_t beam = 0; beam < kBeams; ++beam) {
-    headings_rad[beam] = static_cast<float>(sketch_from_robot.yaw_rad() + scan.angle_rad(beam));
-  }
-  RayCaster(occupied).cast(sketch_from_robot.translation(), headings_rad, 600.0F, scan.ranges_m);
-  for (float& range : scan.ranges_m) {
-    range = (range + 0.5F) / static_cast<float>(sketch_from_robot.scale());  // middle of the line
-  }
-  return scan;
-}
-
 double agreement(const Grid<float>& scan, const Grid<float>& crop, const Cell& shift) {
   double sum = 0.0;
   for (int row = 1; row + 1 < scan.height(); ++row) {
@@ -73,7 +56,7 @@ class SketchCropOverlay : public ::testing::TestWithParam<Sim2> {};
 
 TEST_P(SketchCropOverlay, LaysAScanOverAnUndeformedDrawingToAFractionOfACell) {
   const Grid<std::uint8_t> occupied = room();
-  const Scan scan = scan_in(occupied, GetParam());
+  const Scan scan = testing::simulated_scan(occupied, GetParam(), 360);
   const std::vector<PlacedScan> scans = {{.scan = &scan}};
   const ScanRaster raster = raster_scans(scans, kWindow);
   const SketchCrop crop = SketchCropper(occupied).crop(GetParam(), kWindow);
@@ -90,7 +73,7 @@ TEST_P(SketchCropOverlay, LaysAScanOverAnUndeformedDrawingToAFractionOfACell) {
 
 TEST_P(SketchCropOverlay, ExpectsTheFreeSpaceThatTheScanSaw) {
   const Grid<std::uint8_t> occupied = room();
-  const Scan scan = scan_in(occupied, GetParam());
+  const Scan scan = testing::simulated_scan(occupied, GetParam(), 360);
   const Grid<float> seen = raster_free_space(scan, kWindow);
   const SketchCrop crop = SketchCropper(occupied).crop(GetParam(), kWindow);
   double difference = 0.0;

@@ -47,7 +47,7 @@ const std::vector<Folder>& floor_plan() {
       {"topology", {"motion", "motion/graph", "datasets", "registration"}, {"opencv"}},
       {"eval", kAllButApps, {"opencv", "json"}},
       {"eval/bench", all_but_apps_and({"eval", "tests"}), {"benchmark", "highway"}},
-      {"apps", all_but_apps_and({"eval"}), {"cli11", "spdlog", "yaml", "json"}},
+      {"apps", all_but_apps_and({"eval"}), {"cli11", "spdlog", "yaml", "json", "mpi"}},
       {"tests",
        all_but_apps_and({"eval", "apps"}),
        {"googletest", "opencv", "torch", "json", "yaml", "zlib", "highway", "cli11"}},
@@ -60,7 +60,7 @@ struct Library {
   std::string_view name;
   std::string_view prefix;
 };
-constexpr std::array<Library, 19> kLibraries = {{{"opencv", "opencv2/"},
+constexpr std::array<Library, 20> kLibraries = {{{"opencv", "opencv2/"},
                                                  {"json", "nlohmann/"},
                                                  {"yaml", "yaml-cpp/"},
                                                  {"zlib", "zlib.h"},
@@ -76,6 +76,7 @@ constexpr std::array<Library, 19> kLibraries = {{{"opencv", "opencv2/"},
                                                  {"torch", "ATen/"},
                                                  {"onnx", "onnx/"},
                                                  {"open3d", "open3d/"},
+                                                 {"mpi", "mpi.h"},
                                                  {"benchmark", "benchmark/"},
                                                  {"googletest", "gtest/"},
                                                  {"googletest", "gmock/"}}};
@@ -189,6 +190,7 @@ std::string spelling(const std::string& library) {
                                                                 {"zlib", "zlib"},
                                                                 {"highway", "Highway"},
                                                                 {"cli11", "CLI11"},
+                                                                {"mpi", "MPI"},
                                                                 {"spdlog", "spdlog"},
                                                                 {"ceres", "Ceres"},
                                                                 {"suitesparse", "SuiteSparse"},

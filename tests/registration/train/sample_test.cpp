@@ -8,6 +8,7 @@
 
 #include "registration/network_output.hpp"
 #include "tests/support/matchers.hpp"
+#include "tests/support/similarity_registration.hpp"
 
 namespace sketchloc {
 namespace {
@@ -65,14 +66,7 @@ class Contented final : public WarpPredictor {
   std::vector<std::optional<Registration>> predict(std::span<const PlacedScan>,
                                                    const SketchCropper&,
                                                    std::span<const Sim2> priors) override {
-    const std::vector<Eigen::Vector2d> points = control_points_in_robot({});
-    std::vector<Eigen::Vector2d> places;
-    for (const Eigen::Vector2d& point : points) {
-      places.push_back(priors.front() * point);
-    }
-    return {Registration{.warp = *Warp::from_robot_points(points, places),
-                         .sketch_from_robot = priors.front(),
-                         .covariance = std::nullopt}};
+    return {testing::similarity_registration(priors.front())};
   }
 };
 
