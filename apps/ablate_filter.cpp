@@ -17,6 +17,8 @@
 #include "apps/unfinished_work.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "eval/filter_summary.hpp"
+#include "eval/lost_drives.hpp"
+#include "eval/lost_summary.hpp"
 #include "registration/network_predictor.hpp"
 
 namespace sketchloc {
@@ -64,6 +66,9 @@ std::vector<FilterTask> tasks_of(const AblateOptions& options, const FilterSuite
     tasks = simulated_drives(params, options.seed);
   } else if (options.suite == "robust") {
     tasks = robust_drives(params, options.seed);
+    for (FilterTask& task : lost_drives(params, options.seed)) {
+      tasks.push_back(std::move(task));
+    }
   }
   for (const RecordedSet& recorded : recorded_sets(options)) {
     tasks.push_back({.set = recorded.name, .kind = recorded.kind, .make = [recorded] {
@@ -203,10 +208,10 @@ void run_filter_suite(const AblateOptions& options) {
   const std::vector<FilterRow> rows = summarize_filter(trials, options.seed);
   const std::vector<FilterDifference> differences =
       compare_filter(trials, ablation.methods().back().name, options.seed);
-  const std::string caption = std::to_string(ablation.tasks()) + " runs, " +
-                              std::to_string(options.seeds) +
-                              " seeds of the filter on each, seed " + std::to_string(options.seed) +
-                              "; all start at the reference's first pose, with matched odometry.";
+  const std::string caption =
+      std::to_string(ablation.tasks()) + " runs, " + std::to_string(options.seeds) +
+      " seeds of the filter on each, seed " + std::to_string(options.seed) +
+      "; with matched odometry, from the reference's first pose unless the kind says otherwise.";
   std::string lines;
   for (const FilterTrial& trial : trials) {
     lines += trial_json(trial);
@@ -214,12 +219,14 @@ void run_filter_suite(const AblateOptions& options) {
   write_atomically(out / "report.html",
                    filter_page_html("Ablation: " + options.suite, caption, rows, differences));
   write_atomically(out / "metrics.json", filter_json(rows, differences));
+  const std::vector<LostRow> lost = summarize_lost(trials);
+  write_atomically(out / "lost.json", lost_json(lost));
   write_atomically(out / "trials.jsonl", lines);
   write_atomically(out / "run.yaml", run_file);
   out.commit();
   work.finish();
-  std::cout << filter_markdown(rows) << "report: " << (out.target() / "report.html").string()
-            << "\n";
+  std::cout << filter_markdown(rows) << "\n"
+            << lost_markdown(lost) << "report: " << (out.target() / "report.html").string() << "\n";
 }
 
 }  // namespace sketchloc
