@@ -13,6 +13,7 @@
 #include "apps/unfinished_work.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "eval/filter_summary.hpp"
+#include "eval/lost_summary.hpp"
 #include "registration/network_predictor.hpp"
 
 namespace sketchloc {
@@ -70,7 +71,7 @@ std::vector<std::string> run(const FilterPlan& plan, TextWork work, Ranks& ranks
 std::string caption_of(const AblateOptions& options, const FilterPlan& plan) {
   return std::to_string(plan.tasks.size()) + " runs, " + std::to_string(options.seeds) +
          " seeds of the filter on each, seed " + std::to_string(options.seed) +
-         "; all start at the reference's first pose, with matched odometry.";
+         "; with matched odometry, from the reference's first pose unless the kind says otherwise.";
 }
 
 void lead(const AblateOptions& options, Ranks& ranks) {
@@ -91,12 +92,14 @@ void lead(const AblateOptions& options, Ranks& ranks) {
       out / "report.html",
       filter_page_html("Ablation: " + options.suite, caption_of(options, plan), rows, differences));
   write_atomically(out / "metrics.json", filter_json(rows, differences));
+  const std::vector<LostRow> lost = summarize_lost(trials);
+  write_atomically(out / "lost.json", lost_json(lost));
   write_atomically(out / "trials.jsonl", lines);
   write_atomically(out / "run.yaml", run_file_of(options, plan));
   out.commit();
   unfinished.finish();
-  std::cout << filter_markdown(rows) << "report: " << (out.target() / "report.html").string()
-            << "\n";
+  std::cout << filter_markdown(rows) << "\n"
+            << lost_markdown(lost) << "report: " << (out.target() / "report.html").string() << "\n";
 }
 
 /// What goes wrong here is said by the first process.

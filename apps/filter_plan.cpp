@@ -9,6 +9,7 @@
 #include "apps/fingerprint.hpp"
 #include "apps/given_network.hpp"
 #include "apps/option_checks.hpp"
+#include "eval/lost_drives.hpp"
 
 namespace sketchloc {
 namespace {
@@ -56,6 +57,7 @@ std::vector<FilterTask> tasks_of(const AblateOptions& options, const FilterSuite
     tasks = simulated_drives(params, options.seed);
   } else if (options.suite == "robust") {
     tasks = robust_drives(params, options.seed);
+    std::ranges::move(lost_drives(params, options.seed), std::back_inserter(tasks));
   }
   std::ranges::transform(recorded_sets(options), std::back_inserter(tasks), recorded_task);
   return tasks;

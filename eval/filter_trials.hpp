@@ -29,12 +29,21 @@ struct FilterMethod {
 /// `mcl+both`.
 std::vector<FilterMethod> filter_methods();
 
+/// What a run starts with.
+enum class FilterStart {
+  Reference,    ///< the reference's first pose
+  Anywhere,     ///< nothing
+  WrongDrawing  ///< the reference's first pose in a drawing of another building: never right
+};
+
 /// A robot in a drawing, with the truth.
 struct FilterData {
   Sketch sketch;
   Run run;
   Reference reference;
   std::vector<Reference> alternatives = {};  ///< other readings of the drawing that count too
+  FilterStart start = FilterStart::Reference;
+  std::optional<std::size_t> carried_at = std::nullopt;  ///< step before which it was carried away
 };
 
 /// A run to be found, made when it is needed.
@@ -51,12 +60,17 @@ struct FilterTrial {
   std::string method;
   std::uint64_t seed = 1;
   std::vector<StepError> errors;
+  FilterStart start = FilterStart::Reference;
+  std::optional<std::size_t> carried_at = std::nullopt;  ///< step, see FilterData
 };
 
 /// Throws std::runtime_error where the reference has no pose for the first scan.
 void check_start(const std::string& set, const FilterData& data);
 
-/// Finds the robot of a set by a method, from the reference's first pose. What the method switches
+/// The error in a drawing of another building, m and rad: nowhere is right.
+inline constexpr double kNowhereM = 1e6;
+
+/// Finds the robot of a set by a method, from the start that the set has. What the method switches
 /// on or off replaces what `params` say. Throws std::runtime_error where the set has no start.
 FilterTrial run_filter_trial(const FilterTask& task, const FilterData& data,
                              const FilterMethod& method, const LocalizationParams& params,

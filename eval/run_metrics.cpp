@@ -60,6 +60,9 @@ void add_errors(Json& json, const std::optional<SketchErrors>& errors) {
   add("median_scale_ratio", [](Errors e) { return e.median_scale_ratio; });
   add("lost_at_end", [](Errors e) { return e.lost_at_end; });
   add("first_loss_s", [](Errors e) { return or_null(e.first_loss_s); });
+  add("share_localized", [](Errors e) { return e.share_localized; });
+  add("localized_probability_mean", [](Errors e) { return e.mean_localized_probability; });
+  add("localized_brier", [](Errors e) { return e.localized_brier; });
   add("position_nees", [](Errors e) { return json_of(e.position_nees); });
 }
 

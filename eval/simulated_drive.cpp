@@ -15,14 +15,19 @@ constexpr std::uint64_t kAttempts = 20;
 
 }  // namespace
 
+LidarModel lidar_of(const DriveName& name) {
+  LidarModel lidar;
+  if (name.plan % 2 == 1) {
+    lidar.field_of_view_rad = 2.0 * std::numbers::pi;
+    lidar.beams = 361;
+  }
+  return lidar;
+}
+
 DataSet simulated_drive(const DriveName& name, DataSetParams params, std::uint64_t seed) {
   constexpr BuildingKind kKinds[] = {BuildingKind::Home, BuildingKind::Office,
                                      BuildingKind::Warehouse};
-  params.lidar = {};
-  if (name.plan % 2 == 1) {
-    params.lidar.field_of_view_rad = 2.0 * std::numbers::pi;
-    params.lidar.beams = 361;
-  }
+  params.lidar = lidar_of(name);
   for (std::uint64_t attempt = 0; attempt < kAttempts; ++attempt) {
     Rng rng = make_rng(seed, name.suite + static_cast<std::uint64_t>(name.plan), attempt);
     const Building building = building_from_plan(make_plan(kKinds[name.plan % 3], rng));

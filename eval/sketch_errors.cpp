@@ -62,7 +62,11 @@ StepError error_of(const StepReport& report, const ReferencePose& first,
           .scale_ratio = estimate.scale() / reference.scale(),
           .uncertainty_m = accepted.uncertainty_m,
           .stated_sigma_m = stated_position_sigma_m(report.estimate),
-          .position_nees = position_nees(report.estimate, accepted)};
+          .position_nees = position_nees(report.estimate, accepted),
+          .localized_probability = report.localized_probability,
+          .share_within_bounds = report.share_within_bounds,
+          .contradiction = report.contradiction,
+          .signs = report.signs};
 }
 
 /// Way along the reference up to each of its poses, by the mean local scale of both ends.
@@ -99,6 +103,10 @@ std::vector<double> known_nees(std::span<const StepError> errors) {
 void validate(const LossDefinition& loss) {
   require_above("bound_m", loss.bound_m, 0.0);
   require_at_least("lasting_m", loss.lasting_m, 0.0);
+}
+
+bool is_right(const StepError& error, const RightDefinition& right) {
+  return error.translation_m <= right.bound_m && error.heading_rad <= right.bound_rad;
 }
 
 double stated_position_sigma_m(const Estimate& estimate) {
@@ -171,6 +179,14 @@ SketchErrors summarize_sketch_errors(std::span<const StepError> errors,
   summary.lost_at_end = translation_m.back() > loss.bound_m;
   constexpr double kPositionDegrees = 2.0;
   summary.position_nees = summarize_nees(known_nees(errors), kPositionDegrees);
+  const auto count = static_cast<double>(errors.size());
+  for (const StepError& error : errors) {
+    const double right = is_right(error) ? 1.0 : 0.0;
+    const double off = error.localized_probability - right;
+    summary.share_localized += right / count;
+    summary.mean_localized_probability += error.localized_probability / count;
+    summary.localized_brier += off * off / count;
+  }
   return summary;
 }
 

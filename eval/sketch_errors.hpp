@@ -36,7 +36,19 @@ struct StepError {
   double uncertainty_m = 0.0;           ///< 1-sigma of the reference itself; 0 if exact
   double stated_sigma_m = 0.0;          ///< see stated_position_sigma_m()
   std::optional<double> position_nees;  ///< 2 degrees of freedom; the reference's variance added
+  double localized_probability = 1.0;   ///< these four as the step's report states them
+  double share_within_bounds = 1.0;
+  double contradiction = 0.0;
+  std::optional<LocalizedSigns> signs = std::nullopt;
 };
+
+/// What a stated probability of being localized is about.
+struct RightDefinition {
+  double bound_m = 2.0;       ///< position error, local metres, > 0
+  double bound_rad = 0.5236;  ///< and heading error, > 0
+};
+
+bool is_right(const StepError& error, const RightDefinition& right = {});
 
 /// The error of every step that has an estimate and a scored reference pose. Where `alternatives`
 /// hold a pose for the step too, the nearer position counts; the heading is always that of the
@@ -64,6 +76,9 @@ struct SketchErrors {
   bool lost_at_end = false;            ///< the last scored step is beyond the bound; then
                                        ///< first_loss_s has a value
   std::optional<NeesSummary> position_nees;
+  double share_localized = 0.0;             ///< steps that are right, in [0, 1]
+  double mean_localized_probability = 0.0;  ///< as stated
+  double localized_brier = 0.0;             ///< mean squared error of the stated probability
 };
 
 SketchErrors summarize_sketch_errors(std::span<const StepError> errors,

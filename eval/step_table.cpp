@@ -11,7 +11,7 @@
 namespace sketchloc {
 namespace {
 
-constexpr std::array<std::string_view, 23> kColumns = {"step",
+constexpr std::array<std::string_view, 26> kColumns = {"step",
                                                        "time_s",
                                                        "x_px",
                                                        "y_px",
@@ -33,7 +33,10 @@ constexpr std::array<std::string_view, 23> kColumns = {"step",
                                                        "effective_particles",
                                                        "updated",
                                                        "log_likelihood",
-                                                       "injected_share"};
+                                                       "injected_share",
+                                                       "localized_probability",
+                                                       "challengers",
+                                                       "found_anew"};
 
 constexpr std::size_t kFirstCovariance = 6;
 
@@ -65,6 +68,9 @@ std::string line_of(const StepReport& report) {
   add(report.updated ? 1 : 0);
   add(report.log_likelihood);
   add(report.injected_share);
+  add(report.localized_probability);
+  add(report.challengers);
+  add(report.found_anew ? 1 : 0);
   return line;
 }
 
@@ -92,6 +98,9 @@ StepReport report_of(const CsvRow& row) {
   report.updated = row.flag("updated");
   report.log_likelihood = row.number("log_likelihood", kMostNumber);
   report.injected_share = row.within("injected_share", 0.0, 1.0);
+  report.localized_probability = row.within("localized_probability", 0.0, 1.0);
+  report.challengers = row.count("challengers");
+  report.found_anew = row.flag("found_anew");
   return report;
 }
 

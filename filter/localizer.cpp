@@ -75,6 +75,8 @@ void validate(const LocalizerParams& params) {
   validate_part("start", params.start);
   validate_part("recovery", params.recovery);
   validate_part("fusion", params.fusion);
+  validate_part("localized", params.localized);
+  validate_part("challengers", params.challengers);
   validate_part("table", params.table);
   require_in_range("resample_below", params.resample_below, 0.0, 1.0);
   require_in_range("jobs", params.jobs, 1, 1024);
@@ -110,6 +112,7 @@ Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params, WarpPr
       mode_finder_(params.modes,
                    std::max(params.particles.max_particles, params.recovery.candidates)),
       evidence_(params.recovery),
+      challengers_(params.challengers),
       bins_(params.particles.max_particles) {
   const std::size_t most = std::max(params.particles.max_particles, params.recovery.candidates);
   for (ParticleSet* set : {&particles_, &resampled_, &candidates_}) {
@@ -117,6 +120,7 @@ Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params, WarpPr
   }
   scores_.resize(most);
   unbent_scores_.resize(most);
+  single_.resize(1);
   if (predictor != nullptr && (params.fusion.propose || params.fusion.measure)) {
     registrar_.emplace(sketch, *predictor, params.fusion);
   }
@@ -132,6 +136,9 @@ void Localizer::forget() {
   evidence_ = EvidenceMonitor(params_.recovery);
   last_odom_from_robot_.reset();
   updated_once_ = false;
+  challengers_.forget();
+  way_since_signs_m_ = 0.0;
+  last_scan_from_robot_.reset();
   report_.estimate.modes.clear();
   if (registrar_) {
     registrar_->forget();
@@ -140,25 +147,31 @@ void Localizer::forget() {
 
 void Localizer::start_at(const Sim2& sketch_from_robot) {
   forget();
-  const StartSpread& spread = params_.start;
+  belief_.log_odds = params_.localized.start_log_odds;
   particles_.resize(params_.particles.max_particles);
   for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, kStart, chunk);
-    const double position_px = spread.position_m * sketch_from_robot.scale();
-    for (std::size_t i = range.begin; i < range.end; ++i) {
-      particles_.x_px[i] = static_cast<float>(sketch_from_robot.x() + gaussian(position_px, rng));
-      particles_.y_px[i] = static_cast<float>(sketch_from_robot.y() + gaussian(position_px, rng));
-      particles_.heading_rad[i] = static_cast<float>(
-          wrap_rad(sketch_from_robot.yaw_rad() + gaussian(spread.heading_rad, rng)));
-      const double log_scale = std::log(sketch_from_robot.scale());
-      particles_.log_scale[i] = static_cast<float>(log_scale + gaussian(spread.log_scale, rng));
-      particles_.log_mean_scale[i] =
-          static_cast<float>(log_scale + gaussian(spread.log_mean_scale, rng));
-      particles_.axial_strain[i] = static_cast<float>(gaussian(spread.strain, rng));
-      particles_.diagonal_strain[i] = static_cast<float>(gaussian(spread.strain, rng));
-      particles_.log_weight[i] = 0.0F;
-    }
+    draw_around(sketch_from_robot, particles_, range, rng);
   });
+}
+
+void Localizer::draw_around(const Sim2& sketch_from_robot, ParticleSet& particles,
+                            const ParticleRange& range, Rng& rng) const {
+  const StartSpread& spread = params_.start;
+  const double position_px = spread.position_m * sketch_from_robot.scale();
+  const double log_scale = std::log(sketch_from_robot.scale());
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    particles.x_px[i] = static_cast<float>(sketch_from_robot.x() + gaussian(position_px, rng));
+    particles.y_px[i] = static_cast<float>(sketch_from_robot.y() + gaussian(position_px, rng));
+    particles.heading_rad[i] = static_cast<float>(
+        wrap_rad(sketch_from_robot.yaw_rad() + gaussian(spread.heading_rad, rng)));
+    particles.log_scale[i] = static_cast<float>(log_scale + gaussian(spread.log_scale, rng));
+    particles.log_mean_scale[i] =
+        static_cast<float>(log_scale + gaussian(spread.log_mean_scale, rng));
+    particles.axial_strain[i] = static_cast<float>(gaussian(spread.strain, rng));
+    particles.diagonal_strain[i] = static_cast<float>(gaussian(spread.strain, rng));
+    particles.log_weight[i] = 0.0F;
+  }
 }
 
 const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) {
@@ -168,12 +181,18 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
   report_.resampled = false;
   report_.injected_share = 0.0;
   report_.log_likelihood = 0.0;
+  report_.signs.reset();
+  report_.found_anew = false;
   const Se2 robot_from_next =
       last_odom_from_robot_ ? odometry_increment(*last_odom_from_robot_, odom_from_robot) : Se2();
   last_odom_from_robot_ = odom_from_robot;
   if (registrar_) {
     registrar_->add(scan, odom_from_robot, robot_from_next);
   }
+  const std::optional<Sim2> expected_sketch_from_robot =
+      report_.estimate.modes.empty()
+          ? std::nullopt
+          : std::optional(report_.estimate.sketch_from_robot * robot_from_next);
   report_.registered = look(robot_from_next);
   predict_all(robot_from_next);
   const std::size_t beams = gate_opens() ? observe(scan) : 0;
@@ -184,6 +203,8 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
   report_.effective_particles = normalise(particles_).effective_particles;
   report_.particles = particles_.size();
   mode_finder_.find(particles_, report_.estimate);
+  compare_scans(scan, robot_from_next);
+  believe(expected_sketch_from_robot, robot_from_next);
   if (report_.updated || (report_.registered && params_.fusion.propose)) {
     resample();
     recover();
@@ -277,6 +298,8 @@ void Localizer::weigh(std::size_t beams) {
     particles_.log_weight[i] += static_cast<float>(exponent * scores_[i]);
   }
   const double per_beam = score_sum / weight_sum / static_cast<double>(beams);
+  update_share_ = new_share();
+  update_beams_ = beams;
   evidence_.add(per_beam, way_since_update_m_ + kWayPerTurnM * turn_since_update_rad_);
   report_.log_likelihood = per_beam;
   way_since_update_m_ = 0.0;
@@ -401,6 +424,7 @@ GlobalStart Localizer::start_anywhere(const Scan& first_scan) {
     return GlobalStart::NoReturns;
   }
   forget();
+  belief_.log_odds = params_.localized.anywhere_log_odds;
   const ScalePrior scale{
       .log_px_per_m =
           log_px_per_m_ ? *log_px_per_m_ : anywhere_.median_log_visible_radius() - *log_radius_m,

@@ -9,8 +9,10 @@
 #include "datasets/scan.hpp"
 #include "datasets/sketch.hpp"
 #include "filter/beam_model.hpp"
+#include "filter/challengers.hpp"
 #include "filter/end_point_model.hpp"
 #include "filter/global_sampler.hpp"
+#include "filter/localized_belief.hpp"
 #include "filter/mode_finder.hpp"
 #include "filter/particle_set.hpp"
 #include "filter/predict.hpp"
@@ -80,6 +82,8 @@ struct LocalizerParams {
   StartSpread start;
   RecoveryParams recovery;
   FusionParams fusion;
+  LocalizedParams localized;
+  ChallengerParams challengers;
   RangeTableParams table;
   double resample_below = 0.5;  ///< share of effective particles that calls for resampling, [0, 1]
   std::uint64_t seed = 1;
@@ -99,6 +103,8 @@ void visit_fields(LocalizerParams& params, Visitor&& visit) {
   visit("start", params.start);
   visit("recovery", params.recovery);
   visit("fusion", params.fusion);
+  visit("localized", params.localized);
+  visit("challengers", params.challengers);
   visit("table", params.table);
   visit("resample_below", params.resample_below);
 }
@@ -156,6 +162,16 @@ class Localizer {
   void replace_by_candidates(std::size_t count, Rng& rng);
   bool gate_opens() const;
   double new_share() const;
+  void draw_around(const Sim2& sketch_from_robot, ParticleSet& particles,
+                   const ParticleRange& range, Rng& rng) const;
+  void believe(const std::optional<Sim2>& expected_sketch_from_robot, const Se2& robot_from_next);
+  void follow_jump(const Sim2& expected_sketch_from_robot);
+  void compare_scans(const Scan& scan, const Se2& robot_from_next);
+  void hear_registrations();
+  void challenge(const Se2& robot_from_next);
+  void ask(std::vector<Challenger> asked);
+  double evidence_at(const Registration& registration);
+  void take_over();
 
   LocalizerParams params_;
   RangeTable table_;
@@ -163,12 +179,15 @@ class Localizer {
   std::variant<BeamModel, EndPointModel> model_;
   ModeFinder mode_finder_;
   EvidenceMonitor evidence_;
+  LocalizedBelief belief_;
+  Challengers challengers_;
   std::optional<Registrar> registrar_;
   BinTable bins_;
 
   ParticleSet particles_;
   ParticleSet resampled_;   ///< back buffer
   ParticleSet candidates_;  ///< for recovery
+  ParticleSet single_;      ///< one pose to be scored
   std::vector<float> scores_;
   std::vector<float> unbent_scores_;
   std::vector<std::int8_t> likelihood_of_;
@@ -180,6 +199,11 @@ class Localizer {
   double way_since_update_m_ = 0.0;
   double turn_since_update_rad_ = 0.0;
   bool updated_once_ = false;
+  double update_share_ = 1.0;  ///< how much of the last update's scan was new
+  std::size_t update_beams_ = 0;
+  double way_since_signs_m_ = 0.0;
+  Scan last_scan_;  ///< that saw anything, and where it was since
+  std::optional<Se2> last_scan_from_robot_;
   StepReport report_;
 };
 

@@ -73,6 +73,14 @@ class Registrar {
   std::span<const Registration> registrations() const { return registrations_; }
   std::span<const PoseLikelihood> likelihoods() const { return likelihoods_; }
 
+  /// Registers the present scans from any other poses; not a look at the modes.
+  std::vector<std::optional<Registration>> register_from(std::span<const Sim2> priors) const {
+    return predictor_->predict(recent_.placed(), cropper_, priors);
+  }
+
+  /// Whether there is anything to register.
+  bool sees_anything() const { return saw_anything_; }
+
   /// The index of each particle's likelihood, by the mode that it belonged to before it moved.
   void assign(const ParticleSet& particles, std::vector<std::int8_t>& likelihood_of) const;
 

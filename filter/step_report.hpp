@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "filter/estimate.hpp"
+#include "filter/localized_belief.hpp"
 
 namespace sketchloc {
 
@@ -18,6 +20,13 @@ struct StepReport {
   std::size_t particles = 0;
   bool resampled = false;
   double injected_share = 0.0;  ///< particles replaced by recovery, in [0, 1]
+  /// That the pose is within LocalizedParams' bounds of the truth, in [0, 1].
+  double localized_probability = 1.0;
+  double share_within_bounds = 1.0;  ///< of the particles' weight, see share_within_bounds()
+  std::optional<LocalizedSigns> signs = std::nullopt;  ///< of the tracked pose, where there are new
+  double contradiction = 0.0;   ///< of this scan and the last one, see contradiction()
+  std::size_t challengers = 0;  ///< other places followed by registrations
+  bool found_anew = false;      ///< one of them took the tracked pose's place
 };
 
 }  // namespace sketchloc

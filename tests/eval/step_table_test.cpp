@@ -43,6 +43,9 @@ TEST_F(StepTable, ReadsBackWhatWasWritten) {
     EXPECT_EQ(read[i].particles, steps_[i].particles);
     EXPECT_EQ(read[i].updated, steps_[i].updated);
     EXPECT_EQ(read[i].injected_share, steps_[i].injected_share);
+    EXPECT_EQ(read[i].localized_probability, steps_[i].localized_probability);
+    EXPECT_EQ(read[i].challengers, steps_[i].challengers);
+    EXPECT_EQ(read[i].found_anew, steps_[i].found_anew);
   }
 }
 
@@ -63,7 +66,7 @@ TEST_F(StepTable, SaysWhatIsWrongAndWhere) {
   };
   fails_with("a,b\n", "trajectory.csv:1: header: expected one column \"step\"");
   fails_with(step_table_csv({}), "rows: expected at least one");
-  fails_with(good + "1,2,3\n", "trajectory.csv:4: columns: expected 23 as in the header");
+  fails_with(good + "1,2,3\n", "trajectory.csv:4: columns: expected 26 as in the header");
   fails_with(good.substr(0, good.size() - 10) + "x\n", "trajectory.csv:3:");
   fails_with(good + good.substr(good.find('\n') + 1), "trajectory.csv:4: step: expected more than");
   std::string nan = good;

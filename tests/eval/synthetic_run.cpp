@@ -132,6 +132,9 @@ StepReport make_report(std::size_t step, std::size_t count, const Sim2& referenc
   report.particles = static_cast<std::size_t>(2000.0 + 300.0 * error_m.norm());
   report.effective_particles = static_cast<double>(report.particles) * (0.6 + 0.3 * wave);
   report.injected_share = error_m.norm() > 6.0 ? 0.03 : 0.0;
+  report.localized_probability = error_m.norm() > 6.0 ? 0.125 : 0.875;
+  report.challengers = error_m.norm() > 6.0 ? 3 : 0;
+  report.found_anew = error_m.norm() > 12.0;
   return report;
 }
 

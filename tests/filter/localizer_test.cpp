@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -221,6 +222,73 @@ class KnowsTheWay final : public WarpPredictor {
  private:
   const Drive& drive_;
 };
+
+/// Knows it where the prior is within a metre and a half, and says of all others that they are
+/// wrong.
+class KnowsItNearby final : public WarpPredictor {
+ public:
+  explicit KnowsItNearby(const Drive& drive) : drive_(drive), knows_(drive) {}
+
+  std::vector<std::optional<Registration>> predict(std::span<const PlacedScan> submap,
+                                                   const SketchCropper& cropper,
+                                                   std::span<const Sim2> priors) override {
+    const auto step = static_cast<std::size_t>(submap.front().scan->time_s);
+    std::vector<std::optional<Registration>> found = knows_.predict(submap, cropper, priors);
+    for (std::size_t i = 0; i < priors.size(); ++i) {
+      const Eigen::Vector2d away_px =
+          priors[i].translation() - drive_.sketch_from_robot[step].translation();
+      if (away_px.norm() > 1.5 * kPxPerM) {
+        found[i]->sketch_from_robot = priors[i];
+        found[i]->inlier_probability = 0.02;
+      }
+    }
+    return found;
+  }
+
+ private:
+  const Drive& drive_;
+  KnowsTheWay knows_;
+};
+
+TEST(Localizer, FindsTheRobotByRegistrationsWhereItStartedWrongTheSameAtAnyNumberOfThreads) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  std::vector<StepReport> first;
+  for (const int jobs : {1, 4}) {
+    LocalizerParams params = small_params();
+    params.beams.exponent = 1e-6;  // the particles alone never come back
+    params.recovery.base_share = 0.0;
+    params.recovery.max_share = 0.0;
+    params.jobs = jobs;
+    KnowsItNearby predictor(drive);
+    Localizer localizer(sketch, params, &predictor);
+    localizer.start_at(Sim2::from_xy_yaw_scale(220.0, 120.0, -2.0, kPxPerM));
+    const std::vector<StepReport> reports = localize(localizer, drive);
+    const Eigen::Vector2d error_px = reports.back().estimate.sketch_from_robot.translation() -
+                                     drive.sketch_from_robot.back().translation();
+    EXPECT_LT(error_px.norm() / kPxPerM, 1.0);
+    EXPECT_GT(reports.back().localized_probability, 0.5);
+    EXPECT_TRUE(std::ranges::any_of(reports, &StepReport::found_anew));
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      EXPECT_EQ(first[i].localized_probability, reports[i].localized_probability);
+    }
+    first = reports;
+  }
+}
+
+TEST(Localizer, StatesThatItIsLostWhereTheRobotWasCarriedAway) {
+  const Sketch sketch = two_rooms();
+  Drive drive = drive_through_the_door(sketch);
+  for (std::size_t i = 15; i < 20; ++i) {  // what it sees at the end of the drive
+    drive.scans[i].ranges_m = drive.scans[i + 20].ranges_m;
+  }
+  Localizer localizer(sketch, small_params());
+  localizer.start_at(drive.sketch_from_robot.front());
+  const std::vector<StepReport> reports = localize(localizer, drive);
+  EXPECT_GT(reports[14].localized_probability, 0.7);
+  EXPECT_GT(reports[15].contradiction, reports[14].contradiction + 0.1);
+  EXPECT_LT(reports[15].localized_probability, 0.3);
+}
 
 TEST(Localizer, FollowsRegistrationsTheSameAtAnyNumberOfThreads) {
   const Sketch sketch = two_rooms();

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <optional>
+
+#include "filter/contradiction.hpp"
+#include "filter/estimate.hpp"
+#include "filter/particle_set.hpp"
+
+namespace sketchloc {
+
+/// Log-likelihood ratio of what a step showed, if the hypothesis is right against if it is wrong,
+/// linear in the signs: bias + evidence * e + inlier * logit(p), for a scan that is all new.
+struct SignWeights {
+  double bias = 0.0;
+  double evidence = 0.0;  ///< of the log-likelihood per beam
+  double inlier = 0.0;    ///< of the log odds of the registration's inlier probability
+};
+
+template <typename Visitor>
+void visit_fields(SignWeights& weights, Visitor&& visit) {
+  visit("bias", weights.bias);
+  visit("evidence", weights.evidence);
+  visit("inlier", weights.inlier);
+}
+
+/// When a pose counts as right, and what tells. The numbers that are not bounds were fitted on
+/// simulated drives by docs/results/fit_localized.py (see docs/results/robust.md).
+struct LocalizedParams {
+  double bound_m = 2.0;             ///< right: the position is within this, local metres, > 0
+  double bound_rad = 0.5236;        ///< and the heading within this, in (0, pi]
+  double lost_way_m = 40.0;         ///< mean way from being right to being wrong, > 0
+  double found_way_m = 100.0;       ///< and back, > 0
+  double start_log_odds = 4.0;      ///< of a start that was given
+  double anywhere_log_odds = -3.5;  ///< of a pose anywhere in the drawing
+  double max_ratio = 1.4;           ///< the most that one step tells, either way, > 0
+  /// Contradiction of two scans at which having been carried is as likely as not.
+  double carried_contradiction = 0.15;
+  double carried_slope = 100.0;  ///< log odds for a contradiction that is greater by 1, >= 0
+  ContradictionParams contradiction{};
+  SignWeights beams{.bias = 0.04};  ///< without registrations
+  SignWeights registered{.bias = 0.33, .evidence = 2.3, .inlier = 1.1};
+};
+
+template <typename Visitor>
+void visit_fields(LocalizedParams& params, Visitor&& visit) {
+  visit("bound_m", params.bound_m);
+  visit("bound_rad", params.bound_rad);
+  visit("lost_way_m", params.lost_way_m);
+  visit("found_way_m", params.found_way_m);
+  visit("start_log_odds", params.start_log_odds);
+  visit("anywhere_log_odds", params.anywhere_log_odds);
+  visit("max_ratio", params.max_ratio);
+  visit("carried_contradiction", params.carried_contradiction);
+  visit("carried_slope", params.carried_slope);
+  visit("contradiction", params.contradiction);
+  visit("beams", params.beams);
+  visit("registered", params.registered);
+}
+
+/// Throws std::invalid_argument naming the field, its range and its value.
+void validate(const LocalizedParams& params);
+
+/// What a step showed of a hypothesis.
+struct LocalizedSigns {
+  double way_m = 0.0;      ///< driven since the last signs
+  double new_share = 1.0;  ///< of what is seen, as far as the last signs did not know it, [0, 1]
+  double evidence = 0.0;   ///< log-likelihood per beam, <= 0
+  std::optional<double> inlier_probability = std::nullopt;  ///< of a registration from there
+};
+
+/// Whether a hypothesis of the robot's pose is right: a Bayes filter over {right, wrong}, with
+/// changes between both by the way driven (docs/filter.md). Plain data.
+struct LocalizedBelief {
+  double log_odds = 0.0;
+
+  void add(const LocalizedSigns& signs, const LocalizedParams& params);
+
+  /// Two scans in a row contradict each other: the robot may have been carried away.
+  void add_contradiction(double contradiction, const LocalizedParams& params);
+};
+
+/// The share of the particles' weight within the bounds of the estimate, in [0, 1]; weights are
+/// normalised (see normalise).
+double share_within_bounds(const ParticleSet& particles, const Sim2& sketch_from_robot,
+                           const LocalizedParams& params);
+
+}  // namespace sketchloc
