@@ -20,8 +20,10 @@ void catch_interrupts() {
   std::signal(SIGTERM, ask_for_end);
 }
 
+bool end_was_asked_for() { return end_asked_for != 0; }
+
 void throw_if_interrupted() {
-  if (end_asked_for != 0) {
+  if (end_was_asked_for()) {
     throw Interrupted();
   }
 }

@@ -14,6 +14,9 @@ struct Interrupted : std::runtime_error {
 /// From now on the first Ctrl-C or SIGTERM asks for a clean end, a second one ends at once.
 void catch_interrupts();
 
+/// Whether an end was asked for.
+bool end_was_asked_for();
+
 /// Throws Interrupted where an end was asked for. Long loops call it now and then.
 void throw_if_interrupted();
 

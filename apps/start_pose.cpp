@@ -80,26 +80,41 @@ StartPose parse_start_pose(std::string_view text, const std::string& flag) {
   return start;
 }
 
-Sim2 pose_in_drawing(std::string_view text, const std::string& flag, const NamedSketch& drawing,
-                     const Scan& scan) {
+StartPose start_pose_in(std::string_view text, const std::string& flag,
+                        const NamedSketch& drawing) {
   const StartPose start = parse_start_pose(text, flag);
   const std::string given = flag + " " + std::string(text);
   check_place(given, drawing, start.place_in_sketch);
   if (start.px_per_m) {
     check_scale(given, drawing, *start.px_per_m);
   }
-  std::optional<double> px_per_m = start.px_per_m ? start.px_per_m : drawing.sketch.px_per_m;
+  return start;
+}
+
+std::optional<Sim2> pose_at(const StartPose& start, const std::string& flag, const Sketch& sketch,
+                            const Scan& scan) {
+  std::optional<double> px_per_m = start.px_per_m ? start.px_per_m : sketch.px_per_m;
   if (!px_per_m) {
-    px_per_m = guess_px_per_m(drawing.sketch, start.place_in_sketch, start.heading_rad, scan);
+    px_per_m = guess_px_per_m(sketch, start.place_in_sketch, start.heading_rad, scan);
     if (!px_per_m) {
-      throw std::runtime_error(flag +
-                               " without PX_PER_M: the scan does not tell the scale there; give "
-                               "PX_PER_M");
+      return std::nullopt;
     }
     spdlog::info("{}: the scan suggests {:.1f} px/m there", flag, *px_per_m);
   }
   return Sim2::from_xy_yaw_scale(start.place_in_sketch.x(), start.place_in_sketch.y(),
                                  start.heading_rad, *px_per_m);
+}
+
+Sim2 pose_in_drawing(std::string_view text, const std::string& flag, const NamedSketch& drawing,
+                     const Scan& scan) {
+  const StartPose start = start_pose_in(text, flag, drawing);
+  const std::optional<Sim2> pose = pose_at(start, flag, drawing.sketch, scan);
+  if (!pose) {
+    throw std::runtime_error(flag +
+                             " without PX_PER_M: the scan does not tell the scale there; give "
+                             "PX_PER_M");
+  }
+  return *pose;
 }
 
 }  // namespace sketchloc

@@ -29,6 +29,15 @@ struct NamedSketch {
   std::filesystem::path file;
 };
 
+/// The same for a drawing. Throws std::invalid_argument too where the place is outside of it or the
+/// scale makes no building of it.
+StartPose start_pose_in(std::string_view text, const std::string& flag, const NamedSketch& drawing);
+
+/// The pose that is meant; where no scale was given, that of a metric map, else the scale that the
+/// scan there suggests, with a note; none where nothing tells it.
+std::optional<Sim2> pose_at(const StartPose& start, const std::string& flag, const Sketch& sketch,
+                            const Scan& scan);
+
 /// The pose that a text means in a drawing; where the text has no scale, that of a metric map, else
 /// the scale that the scan there suggests, with a note. Throws std::invalid_argument where the
 /// place is outside of the drawing or the scale makes no building of it, std::runtime_error where

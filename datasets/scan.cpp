@@ -2,7 +2,37 @@
 
 #include <cmath>
 
+#include "motion/state_bytes.hpp"
+
 namespace sketchloc {
+
+namespace {
+
+constexpr std::size_t kMostReadings = 1'000'000;
+
+}  // namespace
+
+void save(const Scan& scan, StateWriter& state) {
+  state.put(scan.time_s);
+  state.put(scan.first_angle_rad);
+  state.put(scan.angle_step_rad);
+  state.put(scan.min_range_m);
+  state.put(scan.max_range_m);
+  state.put(scan.robot_from_laser);
+  state.put_list(scan.ranges_m);
+}
+
+Scan load_scan(StateReader& state) {
+  Scan scan;
+  scan.time_s = state.get_finite();
+  scan.first_angle_rad = state.get_finite();
+  scan.angle_step_rad = state.get_finite();
+  scan.min_range_m = state.get_finite();
+  scan.max_range_m = state.get_finite();
+  scan.robot_from_laser = state.get_se2();
+  scan.ranges_m = state.get_list<float>(kMostReadings);
+  return scan;
+}
 
 std::vector<Eigen::Vector2d> end_points_in_robot(const Scan& scan) {
   std::vector<Eigen::Vector2d> points;

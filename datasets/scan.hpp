@@ -9,6 +9,9 @@
 
 namespace sketchloc {
 
+class StateReader;
+class StateWriter;
+
 /// One turn of a planar LIDAR. Beam i points at first_angle_rad + i * angle_step_rad in the laser
 /// frame (0 = forward, counter-clockwise positive). A range outside [min_range_m, max_range_m), of
 /// 0 or less, or NaN, is no return.
@@ -33,6 +36,10 @@ struct Scan {
     return is_in_reach_or_beyond(beam) && ranges_m[beam] < static_cast<float>(max_range_m);
   }
 };
+
+/// Bit for bit, for states that are read back.
+void save(const Scan& scan, StateWriter& state);
+Scan load_scan(StateReader& state);
 
 /// The end points of the beams that returned, in beam order.
 std::vector<Eigen::Vector2d> end_points_in_robot(const Scan& scan);

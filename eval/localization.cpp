@@ -14,23 +14,6 @@ namespace {
 constexpr std::size_t kSnapshots = 80;
 constexpr std::size_t kParticlesShown = 400;
 
-/// Odometry of a run, refined if asked for.
-class OdometryFeed {
- public:
-  OdometryFeed(OdometrySource source, const MatchedOdometryParams& params)
-      : source_(source), matched_(params) {}
-
-  Se2 odom_from_robot(const RunStep& step) {
-    return source_ == OdometrySource::Raw
-               ? step.odom_from_robot
-               : matched_.step(step.scan, step.odom_from_robot).odom_from_robot;
-  }
-
- private:
-  OdometrySource source_;
-  MatchedOdometry matched_;
-};
-
 /// As many particles as one looks at, drawn by weight.
 ParticleSnapshot snapshot_of(const ParticleSet& particles, std::size_t step, std::uint64_t seed) {
   constexpr std::uint64_t kPurpose = 1ULL << 32;  // far from the localizer's own streams

@@ -12,6 +12,7 @@
 #include "filter/localizer.hpp"
 #include "registration/matched_odometry.hpp"
 #include "registration/network_predictor.hpp"
+#include "registration/odometry_feed.hpp"
 
 namespace sketchloc {
 
@@ -20,12 +21,6 @@ enum class Method {
   Mcl,      ///< Monte Carlo localization
   Chained,  ///< one registration after the other, each from the last one's pose [Chen20]
   Odometry  ///< dead reckoning from the start: what the others must beat
-};
-
-/// Which odometry the method gets.
-enum class OdometrySource {
-  Matched,  ///< refined by matching scans with a submap
-  Raw       ///< as the wheels measured it
 };
 
 struct LocalizationParams {

@@ -35,6 +35,26 @@ void Challengers::forget() {
   budget_ = 0.0;
 }
 
+void Challengers::save(StateWriter& state) const {
+  state.put<std::uint64_t>(all_.size());
+  for (const Challenger& one : all_) {
+    state.put(one.sketch_from_robot);
+    one.belief.save(state);
+    state.put(one.way_since_look_m);
+  }
+  state.put(budget_);
+}
+
+void Challengers::load(StateReader& state) {
+  all_.resize(state.get_count(static_cast<std::size_t>(params_.count) + 1));
+  for (Challenger& one : all_) {
+    one.sketch_from_robot = state.get_sim2();
+    one.belief.load(state);
+    one.way_since_look_m = state.get_finite();
+  }
+  budget_ = state.get_finite();
+}
+
 void Challengers::move(const Se2& robot_from_next, double calm) {
   const double way_m = robot_from_next.translation().norm();
   for (Challenger& challenger : all_) {

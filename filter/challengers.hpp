@@ -62,6 +62,9 @@ class Challengers {
 
   void forget();
 
+  void save(StateWriter& state) const;
+  void load(StateReader& state);
+
   /// The robot has moved; `calm`: probability that the tracked pose is right.
   void move(const Se2& robot_from_next, double calm);
 

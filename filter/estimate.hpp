@@ -16,9 +16,10 @@ struct Mode {
 
 /// What the filter believes after one step.
 struct Estimate {
-  Sim2 sketch_from_robot;      ///< mean of the heaviest mode
-  Eigen::Matrix4d covariance;  ///< of that mode: (x px, y px, heading rad, log scale)
-  std::vector<Mode> modes;     ///< heaviest first
+  Sim2 sketch_from_robot;  ///< mean of the heaviest mode
+  Eigen::Matrix4d covariance =
+      Eigen::Matrix4d::Zero();  ///< of that mode: (x px, y px, heading rad, log scale)
+  std::vector<Mode> modes;      ///< heaviest first
 };
 
 }  // namespace sketchloc

@@ -37,6 +37,10 @@ void validate(const LocalizedParams& params) {
   validate_part("contradiction", params.contradiction);
 }
 
+void LocalizedBelief::save(StateWriter& state) const { state.put(log_odds); }
+
+void LocalizedBelief::load(StateReader& state) { log_odds = state.get_finite(); }
+
 void LocalizedBelief::add(const LocalizedSigns& signs, const LocalizedParams& params) {
   const double right = probability_from(log_odds);
   const double lost = -std::expm1(-signs.way_m / params.lost_way_m);

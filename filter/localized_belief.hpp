@@ -5,6 +5,7 @@
 #include "filter/contradiction.hpp"
 #include "filter/estimate.hpp"
 #include "filter/particle_set.hpp"
+#include "motion/state_bytes.hpp"
 
 namespace sketchloc {
 
@@ -72,6 +73,9 @@ struct LocalizedSigns {
 /// changes between both by the way driven (docs/filter.md). Plain data.
 struct LocalizedBelief {
   double log_odds = 0.0;
+
+  void save(StateWriter& state) const;
+  void load(StateReader& state);
 
   void add(const LocalizedSigns& signs, const LocalizedParams& params);
 

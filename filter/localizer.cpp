@@ -14,6 +14,9 @@ namespace {
 // What an engine is for, so that no two uses share a stream.
 enum Purpose : std::uint64_t { kStart, kPredict, kResample, kCandidates, kInject, kPurposes };
 
+// The same where time is short, far from the numbers of the usual engines.
+constexpr std::uint64_t kShrinkStream = 2ULL << 32;
+
 /// A robot that turns sees new directions: the way that is worth a radian to recovery.
 constexpr double kWayPerTurnM = 0.3;
 
@@ -140,6 +143,7 @@ void Localizer::forget() {
   way_since_signs_m_ = 0.0;
   last_scan_from_robot_.reset();
   report_.estimate.modes.clear();
+  report_.limited = false;
   if (registrar_) {
     registrar_->forget();
   }
@@ -174,8 +178,10 @@ void Localizer::draw_around(const Sim2& sketch_from_robot, ParticleSet& particle
   }
 }
 
-const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) {
+const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot,
+                                  const StepBudget& budget) {
   check(particles_.size() > 0, "start the localizer before its first step");
+  check(budget.max_particles > 0, "a step has particles");
   report_.step = steps_;
   report_.time_s = scan.time_s;
   report_.resampled = false;
@@ -193,7 +199,8 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
       report_.estimate.modes.empty()
           ? std::nullopt
           : std::optional(report_.estimate.sketch_from_robot * robot_from_next);
-  report_.registered = look(robot_from_next);
+  shrink(budget.max_particles);
+  report_.registered = look(robot_from_next, budget);
   predict_all(robot_from_next);
   const std::size_t beams = gate_opens() ? observe(scan) : 0;
   report_.updated = beams > 0;
@@ -206,7 +213,7 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot) 
   compare_scans(scan, robot_from_next);
   believe(expected_sketch_from_robot, robot_from_next);
   if (report_.updated || (report_.registered && params_.fusion.propose)) {
-    resample();
+    resample(budget);
     recover();
   }
   ++steps_;
@@ -262,8 +269,11 @@ double Localizer::weight_asked_about() const {
 }
 
 /// Registers, if it is time to; says whether that told anything.
-bool Localizer::look(const Se2& robot_from_next) {
-  if (!registrar_ || report_.estimate.modes.empty() || !registrar_->is_due()) {
+bool Localizer::look(const Se2& robot_from_next, const StepBudget& budget) {
+  const bool due = registrar_ && !report_.estimate.modes.empty() && registrar_->is_due();
+  report_.looked = due && budget.may_register;
+  report_.held_back = due && !budget.may_register;
+  if (!report_.looked) {
     return false;
   }
   registrar_->look(report_.estimate.modes, robot_from_next);
@@ -337,7 +347,28 @@ void Localizer::add_unbent_scores(double exponent) {
   }
 }
 
-void Localizer::resample() {
+/// Fewer particles at once, where time is short.
+void Localizer::shrink(std::size_t most) {
+  if (particles_.size() <= most) {
+    return;
+  }
+  report_.limited = true;  // until a resampling asks for no more than it may have
+  Rng rng = make_rng(params_.seed, kShrinkStream + steps_);
+  replace_by_parents(most, rng);
+}
+
+void Localizer::replace_by_parents(std::size_t count, Rng& rng) {
+  const auto parents = std::span<std::uint32_t>(parents_).first(count);
+  systematic_parents(particles_.log_weight, parents, rng);
+  resampled_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    resampled_.assign(i, particles_, parents[i]);
+    resampled_.log_weight[i] = 0.0F;
+  }
+  std::swap(particles_, resampled_);
+}
+
+void Localizer::resample(const StepBudget& budget) {
   report_.resampled =
       report_.effective_particles < params_.resample_below * static_cast<double>(particles_.size());
   if (!report_.resampled) {
@@ -345,16 +376,11 @@ void Localizer::resample() {
   }
   Rng rng = make_rng(params_.seed, steps_ * kPurposes + kResample);
   const std::span<std::uint32_t> all(parents_);
-  const auto most = all.first(params_.particles.max_particles);
+  const auto most = all.first(std::min(params_.particles.max_particles, budget.max_particles));
   systematic_parents(particles_.log_weight, most, rng);
-  const auto parents = all.first(kld_count(count_bins(most), params_.particles));
-  systematic_parents(particles_.log_weight, parents, rng);
-  resampled_.resize(parents.size());
-  for (std::size_t i = 0; i < parents.size(); ++i) {
-    resampled_.assign(i, particles_, parents[i]);
-    resampled_.log_weight[i] = 0.0F;
-  }
-  std::swap(particles_, resampled_);
+  const std::size_t enough = kld_count(count_bins(most), params_.particles);
+  report_.limited = enough > budget.max_particles;
+  replace_by_parents(std::min(enough, budget.max_particles), rng);
 }
 
 std::size_t Localizer::count_bins(std::span<const std::uint32_t> parents) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <variant>
@@ -115,6 +116,12 @@ LocalizerParams metric_localizer_params();
 /// Throws std::invalid_argument naming the component and field, its range and its value.
 void validate(const LocalizerParams& params);
 
+/// What a step may cost; where time is short, it can do with less.
+struct StepBudget {
+  std::size_t max_particles = std::numeric_limits<std::size_t>::max();  ///< >= 1
+  bool may_register = true;
+};
+
 /// Whether the filter could start with nothing known.
 enum class GlobalStart {
   Started,
@@ -139,7 +146,16 @@ class Localizer {
   GlobalStart start_anywhere(const Scan& first_scan);
 
   /// Takes the next scan with the odometry at its instant. The report is valid until the next call.
-  const StepReport& step(const Scan& scan, const Se2& odom_from_robot);
+  const StepReport& step(const Scan& scan, const Se2& odom_from_robot,
+                         const StepBudget& budget = {});
+
+  /// The robot may have moved while nobody measured it: every pose gets this much noise, 1-sigma.
+  void spread(double position_m, double heading_rad);
+
+  /// All that the steps to come depend on, exactly: one with the same drawing and parameters that
+  /// loads it goes on with the same bytes. Where load throws, start it anew.
+  void save(StateWriter& state) const;
+  void load(StateReader& state);
 
   Localizer(const Localizer&) = delete;  // the model refers to the table
   Localizer& operator=(const Localizer&) = delete;
@@ -150,12 +166,14 @@ class Localizer {
   void forget();
   void predict_all(const Se2& robot_from_next);
   double weight_asked_about() const;
-  bool look(const Se2& robot_from_next);
+  bool look(const Se2& robot_from_next, const StepBudget& budget);
   void add_unbent_scores(double exponent);
   std::size_t observe(const Scan& scan);
   void score(const ParticleSet& particles);
   void weigh(std::size_t beams);
-  void resample();
+  void resample(const StepBudget& budget);
+  void shrink(std::size_t most);
+  void replace_by_parents(std::size_t count, Rng& rng);
   std::size_t count_bins(std::span<const std::uint32_t> parents);
   void recover();
   void draw_candidates();

@@ -1,7 +1,9 @@
 #include "filter/particle_set.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace sketchloc {
 namespace {
@@ -46,6 +48,26 @@ Sim2 ParticleSet::sketch_from_robot(std::size_t index) const {
 void ParticleSet::assign(std::size_t index, const ParticleSet& from, std::size_t from_index) {
   for (const auto field : kFields) {
     (this->*field)[index] = (from.*field)[from_index];
+  }
+}
+
+void ParticleSet::save(StateWriter& state) const {
+  for (const auto field : kFields) {
+    state.put_list(this->*field);
+  }
+}
+
+void ParticleSet::load(StateReader& state, std::size_t most) {
+  for (const auto field : kFields) {
+    const std::vector<float> values = state.get_list<float>(most);
+    const bool whole = field == kFields.front() ? !values.empty() : values.size() == size();
+    const bool numbers = std::ranges::all_of(values, [&](float value) {
+      return std::isfinite(value) || (field == &ParticleSet::log_weight && value < 0.0F);
+    });
+    if (!whole || !numbers) {
+      throw std::runtime_error("the state is damaged: its particles are none");
+    }
+    (this->*field).assign(values.begin(), values.end());  // keeps what was reserved
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "filter/particle_spans.hpp"
 #include "motion/sim2.hpp"
+#include "motion/state_bytes.hpp"
 
 namespace sketchloc {
 
@@ -36,6 +37,10 @@ struct ParticleSet {
 
   /// The similarity part of one particle.
   Sim2 sketch_from_robot(std::size_t index) const;
+
+  void save(StateWriter& state) const;
+  /// Throws std::runtime_error for a set that is empty or larger than `most`.
+  void load(StateReader& state, std::size_t most);
 
   /// Copies one particle of another set, weight included.
   void assign(std::size_t index, const ParticleSet& from, std::size_t from_index);

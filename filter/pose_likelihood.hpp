@@ -24,14 +24,14 @@ struct PoseLikelihood {
 
 /// How far a registration is believed.
 struct PoseTrust {
-  double inflation = 1.0;         ///< of its standard deviations, > 0
-  double reach_m = 3.0;           ///< a wrong one lies anywhere so far from its prior, > 0
-  double reach_rad = 0.8;         ///< and turned by so much, > 0
-  double reach_log_scale = 0.5;   ///< and scaled, > 0
-  double max_peak = 100.0;        ///< a right one counts no more, at its pose, than a wrong one
-                                  ///< times this, >= 1
+  double inflation = 1.0;        ///< of its standard deviations, > 0
+  double reach_m = 3.0;          ///< a wrong one lies anywhere so far from its prior, > 0
+  double reach_rad = 0.8;        ///< and turned by so much, > 0
+  double reach_log_scale = 0.5;  ///< and scaled, > 0
+  double max_peak = 100.0;       ///< a right one counts no more, at its pose, than a wrong one
+                                 ///< times this, >= 1
   double max_probability = 0.8;  ///< no registration is righter than this, in (0, 1)
-  double min_position_m = 0.05;   ///< what no registration tells, 1-sigma, > 0
+  double min_position_m = 0.05;  ///< what no registration tells, 1-sigma, > 0
   double min_heading_rad = 0.02;
   double min_log_scale = 0.02;
   double strain_sigma = 0.2;  ///< of the strain that the warp has at the robot, > 0

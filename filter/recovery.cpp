@@ -34,4 +34,16 @@ double EvidenceMonitor::injection_share() const {
   return std::clamp(worse, params_.base_share, std::max(params_.base_share, params_.max_share));
 }
 
+void EvidenceMonitor::save(StateWriter& state) const {
+  state.put(started_);
+  state.put(slow_);
+  state.put(fast_);
+}
+
+void EvidenceMonitor::load(StateReader& state) {
+  started_ = state.get<bool>();
+  slow_ = state.get_finite();
+  fast_ = state.get_finite();
+}
+
 }  // namespace sketchloc

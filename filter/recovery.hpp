@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "motion/state_bytes.hpp"
+
 namespace sketchloc {
 
 /// Recovery of a lost robot: new particles come in where the evidence gets worse than it used to
@@ -40,6 +42,9 @@ class EvidenceMonitor {
 
   /// The share of particles to replace, in [base_share, max_share].
   double injection_share() const;
+
+  void save(StateWriter& state) const;
+  void load(StateReader& state);
 
  private:
   RecoveryParams params_;

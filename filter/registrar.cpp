@@ -34,6 +34,20 @@ void Registrar::forget() {
   turn_since_rad_ = 0.0;
 }
 
+void Registrar::save(StateWriter& state) const {
+  recent_.save(state);
+  state.put(looked_once_);
+  state.put(way_since_m_);
+  state.put(turn_since_rad_);
+}
+
+void Registrar::load(StateReader& state) {
+  recent_.load(state);
+  looked_once_ = state.get<bool>();
+  way_since_m_ = state.get_finite();
+  turn_since_rad_ = state.get_finite();
+}
+
 void Registrar::add(const Scan& scan, const Se2& odom_from_robot, const Se2& last_from_robot) {
   recent_.add(scan, odom_from_robot);
   saw_anything_ = !end_points_in_robot(scan).empty();

@@ -60,6 +60,10 @@ class Registrar {
   /// A new run.
   void forget();
 
+  /// What it knows between two scans.
+  void save(StateWriter& state) const;
+  void load(StateReader& state);
+
   /// Takes the present scan, with the odometry at its instant.
   void add(const Scan& scan, const Se2& odom_from_robot, const Se2& last_from_robot);
 

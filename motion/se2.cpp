@@ -1,5 +1,6 @@
 #include "motion/se2.hpp"
 
+#include "motion/check.hpp"
 #include "motion/detail/complex_plane.hpp"
 
 namespace sketchloc {
@@ -20,6 +21,14 @@ Se2 Se2::exp(const Eigen::Vector3d& twist) {
   const std::complex<double> w(0.0, twist.z());
   pose.translation_ = to_vector(exp_quotient(w) * to_complex(twist.head<2>()));
   pose.rotation_ = std::polar(1.0, twist.z());
+  return pose;
+}
+
+Se2 Se2::from_parts(const Eigen::Vector2d& translation_m, const std::complex<double>& rotation) {
+  check(std::abs(std::abs(rotation) - 1.0) < 1e-6, "a rotation has unit length");
+  Se2 pose;
+  pose.translation_ = translation_m;
+  pose.rotation_ = rotation;
   return pose;
 }
 

@@ -15,10 +15,14 @@ class Se2 {
   /// Exponential map of (v_x, v_y, yaw): the pose after one unit of time at that body velocity.
   static Se2 exp(const Eigen::Vector3d& twist);
 
+  /// Keeps every bit, for states that are read back. Checks that the rotation has unit length.
+  static Se2 from_parts(const Eigen::Vector2d& translation_m, const std::complex<double>& rotation);
+
   double x_m() const { return translation_.x(); }
   double y_m() const { return translation_.y(); }
   double yaw_rad() const;  ///< in (-pi, pi]
   const Eigen::Vector2d& translation() const { return translation_; }
+  const std::complex<double>& rotation() const { return rotation_; }
   Eigen::Matrix2d rotation_matrix() const;
 
   Se2 inverse() const;

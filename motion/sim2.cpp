@@ -29,6 +29,15 @@ Sim2 Sim2::exp(const Eigen::Vector4d& twist) {
   return result;
 }
 
+Sim2 Sim2::from_parts(const Eigen::Vector2d& translation,
+                      const std::complex<double>& scaled_rotation) {
+  check(std::abs(scaled_rotation) > 0.0, "the scale of a Sim2 must be positive");
+  Sim2 result;
+  result.translation_ = translation;
+  result.scaled_rotation_ = scaled_rotation;
+  return result;
+}
+
 double Sim2::yaw_rad() const { return detail::angle_rad(scaled_rotation_); }
 
 Eigen::Matrix2d Sim2::scaled_rotation_matrix() const {

@@ -20,11 +20,16 @@ class Sim2 {
   /// Exponential map of the Lie algebra sim(2).
   static Sim2 exp(const Eigen::Vector4d& twist);
 
+  /// Keeps every bit, for states that are read back. Checks scale > 0.
+  static Sim2 from_parts(const Eigen::Vector2d& translation,
+                         const std::complex<double>& scaled_rotation);
+
   double x() const { return translation_.x(); }
   double y() const { return translation_.y(); }
   double yaw_rad() const;  ///< in (-pi, pi]
   double scale() const { return std::abs(scaled_rotation_); }
   const Eigen::Vector2d& translation() const { return translation_; }
+  const std::complex<double>& scaled_rotation() const { return scaled_rotation_; }
   Eigen::Matrix2d scaled_rotation_matrix() const;
 
   Sim2 inverse() const;

@@ -184,4 +184,37 @@ void MatchedOdometry::rebuild_submap() {
   submap_grid_.refill(merged_in_odom);
 }
 
+void MatchedOdometry::save(StateWriter& state) const {
+  state.put(started_);
+  state.put(raw_odom_from_robot_);
+  state.put(odom_from_robot_);
+  state.put<std::uint64_t>(keyframes_.size());
+  for (const Keyframe& keyframe : keyframes_) {
+    state.put(keyframe.odom_from_robot);
+    state.put<std::uint64_t>(keyframe.points_in_robot.size());
+    for (const SurfacePoint& surface : keyframe.points_in_robot) {
+      state.put(surface.point);
+      state.put(surface.normal);
+    }
+  }
+}
+
+void MatchedOdometry::load(StateReader& state) {
+  constexpr std::size_t kMostPoints = 1'000'000;
+  started_ = state.get<bool>();
+  raw_odom_from_robot_ = state.get_se2();
+  odom_from_robot_ = state.get_se2();
+  keyframes_.resize(state.get_count(static_cast<std::size_t>(params_.max_keyframes)));
+  for (Keyframe& keyframe : keyframes_) {
+    keyframe.odom_from_robot = state.get_se2();
+    const std::size_t count = state.get_count(kMostPoints);
+    keyframe.points_in_robot.clear();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Eigen::Vector2d point = state.get_matrix<2, 1>();
+      keyframe.points_in_robot.push_back({point, state.get_matrix<2, 1>()});
+    }
+  }
+  rebuild_submap();
+}
+
 }  // namespace sketchloc

@@ -6,6 +6,7 @@
 
 #include "datasets/scan.hpp"
 #include "motion/odometry.hpp"
+#include "motion/state_bytes.hpp"
 #include "registration/pose_search.hpp"
 #include "registration/scan_matcher.hpp"
 #include "registration/surface_map.hpp"
@@ -91,6 +92,10 @@ class MatchedOdometry {
 
   /// Takes the next scan with the raw odometry at its instant.
   MatchedStep step(const Scan& scan, const Se2& raw_odom_from_robot);
+
+  /// What it knows, exactly; the submap is made again from its keyframes.
+  void save(StateWriter& state) const;
+  void load(StateReader& state);
 
  private:
   struct Keyframe {

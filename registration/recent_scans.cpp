@@ -41,4 +41,21 @@ std::vector<PlacedScan> RecentScans::placed() const {
   return scans;
 }
 
+void RecentScans::save(StateWriter& state) const {
+  state.put<std::uint64_t>(remembered_.size());
+  for (const Entry& entry : remembered_) {
+    sketchloc::save(entry.scan, state);
+    state.put(entry.odom_from_robot);
+  }
+}
+
+void RecentScans::load(StateReader& state) {
+  std::deque<Entry> remembered(state.get_count(static_cast<std::size_t>(params_.max_scans)));
+  for (Entry& entry : remembered) {
+    entry.scan = load_scan(state);
+    entry.odom_from_robot = state.get_se2();
+  }
+  remembered_ = std::move(remembered);
+}
+
 }  // namespace sketchloc

@@ -5,6 +5,7 @@
 
 #include "datasets/scan.hpp"
 #include "motion/se2.hpp"
+#include "motion/state_bytes.hpp"
 #include "registration/scan_raster.hpp"
 
 namespace sketchloc {
@@ -37,6 +38,9 @@ class RecentScans {
   /// The present scan first, then back in time. Empty before the first scan; valid until the next
   /// one.
   std::vector<PlacedScan> placed() const;
+
+  void save(StateWriter& state) const;
+  void load(StateReader& state);
 
  private:
   struct Entry {

@@ -10,6 +10,7 @@
 #include "datasets/io/detail/gzip.hpp"
 #include "datasets/io/detail/json_fields.hpp"
 #include "datasets/io/detail/limits.hpp"
+#include "datasets/io/detail/step_fields.hpp"
 #include "datasets/io/detail/whole_lines.hpp"
 #include "motion/number_text.hpp"
 
@@ -17,67 +18,12 @@ namespace sketchloc {
 namespace detail {
 namespace {
 
-Se2 read_pose(const JsonFields& fields, std::string_view key) {
-  const JsonFields pose = fields.object(key, {"x_m", "y_m", "yaw_rad"});
-  return Se2::from_xy_yaw(pose.number("x_m", kMostPosition_m), pose.number("y_m", kMostPosition_m),
-                          pose.number("yaw_rad", kMostAngle_rad));
-}
-
-/// Ranges in metres; null is no return.
-std::vector<float> read_ranges(const JsonFields& scan) {
-  const nlohmann::json& array = scan.array("ranges_m");
-  if (array.empty() || array.size() > kMostReadings) {
-    fail_expected(scan.place(), scan.path_of("ranges_m"),
-                  "1 to " + std::to_string(kMostReadings) + " values", std::to_string(array.size()),
-                  "leave out scans without readings");
-  }
-  std::vector<float> ranges_m;
-  ranges_m.reserve(array.size());
-  for (const nlohmann::json& item : array) {
-    if (item.is_null()) {
-      ranges_m.push_back(std::numeric_limits<float>::quiet_NaN());
-      continue;
-    }
-    const std::optional<double> range_m =
-        item.is_number() ? std::optional(item.get<double>()) : std::nullopt;
-    if (!is_within(range_m, kMostRange_m)) {
-      fail_expected(scan.place(), scan.path_of("ranges_m[" + std::to_string(ranges_m.size()) + "]"),
-                    number_within(kMostRange_m) + " or null", in_words(item), "correct the value");
-    }
-    ranges_m.push_back(static_cast<float>(*range_m));
-  }
-  return ranges_m;
-}
-
-Scan read_scan(const JsonFields& step) {
-  const JsonFields fields = step.object("scan", {"first_angle_rad", "angle_step_rad", "min_range_m",
-                                                 "max_range_m", "ranges_m", "robot_from_laser"});
-  Scan scan;
-  scan.time_s = step.number("time_s", kMostTime_s);
-  scan.first_angle_rad = fields.number("first_angle_rad", kMostBeamAngle_rad);
-  scan.angle_step_rad = fields.number("angle_step_rad", kMostBeamAngle_rad);
-  scan.max_range_m = fields.number("max_range_m", kMostRange_m);
-  if (fields.has("min_range_m")) {
-    scan.min_range_m = fields.number("min_range_m", kMostRange_m);
-  }
-  if (fields.has("robot_from_laser")) {
-    scan.robot_from_laser = read_pose(fields, "robot_from_laser");
-  }
-  if (scan.min_range_m < 0.0 || scan.max_range_m <= scan.min_range_m) {
-    fail(step.place(), "scan: expected 0 <= min_range_m < max_range_m, found " +
-                           std::to_string(scan.min_range_m) + " and " +
-                           std::to_string(scan.max_range_m) + "; correct the values");
-  }
-  scan.ranges_m = read_ranges(fields);
-  return scan;
-}
-
 RunStep read_step(std::string_view line, const Place& place) {
   const nlohmann::json json = parse_json(line, place);
   const JsonFields fields(json, "", place, {"time_s", "odometry", "scan"});
   RunStep step;
-  step.odom_from_robot = read_pose(fields, "odometry");
-  step.scan = read_scan(fields);
+  step.odom_from_robot = read_json_pose(fields, "odometry");
+  step.scan = read_json_scan(fields);
   return step;
 }
 

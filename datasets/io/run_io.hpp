@@ -43,8 +43,8 @@ RunFile read_carmen(const std::filesystem::path& log, const RunReading& reading 
 /// JSON lines: one step per line, as write_jsonl writes them.
 RunFile read_jsonl(const std::filesystem::path& log, const RunReading& reading = {});
 
-/// One step from one line of JSON, for logs and for robots that send their scans as they come.
-/// Errors name `source` and `line_number`.
+/// One step from one line of JSON; errors name `source` and `line_number`. For what robots send as
+/// they drive: parse_json_message (datasets/io/message_io.hpp).
 RunStep parse_json_step(std::string_view line, const std::filesystem::path& source,
                         std::size_t line_number);
 

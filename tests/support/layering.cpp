@@ -22,8 +22,9 @@ struct Folder {
 };
 
 const std::vector<std::string> kAllButApps = {
-    "motion",       "motion/graph",       "datasets", "datasets/io", "datasets/sim",
-    "registration", "registration/train", "filter",   "planning",    "topology"};
+    "motion",       "motion/graph",       "datasets", "datasets/io",   "datasets/sim",
+    "registration", "registration/train", "filter",   "filter/online", "planning",
+    "topology"};
 
 std::vector<std::string> all_but_apps_and(std::initializer_list<std::string> more) {
   std::vector<std::string> folders = kAllButApps;
@@ -43,6 +44,7 @@ const std::vector<Folder>& floor_plan() {
        {"motion", "datasets", "registration", "datasets/sim"},
        {"torch", "onnx"}},
       {"filter", {"motion", "datasets", "registration"}, {"highway"}},
+      {"filter/online", {"motion", "datasets", "registration", "filter"}, {}},
       {"planning", {"motion", "datasets", "registration"}, {"ompl"}},
       {"topology", {"motion", "motion/graph", "datasets", "registration"}, {"opencv"}},
       {"eval", kAllButApps, {"opencv", "json"}},
