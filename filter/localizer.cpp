@@ -211,7 +211,7 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot,
   report_.particles = particles_.size();
   mode_finder_.find(particles_, report_.estimate);
   compare_scans(scan, robot_from_next);
-  believe(expected_sketch_from_robot, robot_from_next);
+  believe(expected_sketch_from_robot, robot_from_next, budget);
   if (report_.updated || (report_.registered && params_.fusion.propose)) {
     resample(budget);
     recover();

@@ -182,11 +182,12 @@ class Localizer {
   double new_share() const;
   void draw_around(const Sim2& sketch_from_robot, ParticleSet& particles,
                    const ParticleRange& range, Rng& rng) const;
-  void believe(const std::optional<Sim2>& expected_sketch_from_robot, const Se2& robot_from_next);
+  void believe(const std::optional<Sim2>& expected_sketch_from_robot, const Se2& robot_from_next,
+               const StepBudget& budget);
   void follow_jump(const Sim2& expected_sketch_from_robot);
   void compare_scans(const Scan& scan, const Se2& robot_from_next);
   void hear_registrations();
-  void challenge(const Se2& robot_from_next);
+  void challenge(const Se2& robot_from_next, const StepBudget& budget);
   void ask(std::vector<Challenger> asked);
   double evidence_at(const Registration& registration);
   void take_over();

@@ -17,14 +17,14 @@ constexpr double kMostOfTheParticles = 0.95;  ///< the tracked pose keeps some
 }  // namespace
 
 void Localizer::believe(const std::optional<Sim2>& expected_sketch_from_robot,
-                        const Se2& robot_from_next) {
+                        const Se2& robot_from_next, const StepBudget& budget) {
   way_since_signs_m_ += robot_from_next.translation().norm();
   if (expected_sketch_from_robot) {
     follow_jump(*expected_sketch_from_robot);
   }
   if (registrar_) {
     hear_registrations();
-    challenge(robot_from_next);
+    challenge(robot_from_next, budget);
   } else if (report_.updated) {
     report_.signs = {.way_m = way_since_signs_m_,
                      .new_share = update_share_,
@@ -118,12 +118,12 @@ double Localizer::evidence_at(const Registration& registration) {
 }
 
 /// Registers challengers that are due and newcomers; lets the best one take over if it has won.
-void Localizer::challenge(const Se2& robot_from_next) {
+void Localizer::challenge(const Se2& robot_from_next, const StepBudget& budget) {
   if (params_.challengers.count == 0 || anywhere_.empty()) {
     return;
   }
   challengers_.move(robot_from_next, report_.localized_probability);
-  if (!report_.updated || !registrar_->sees_anything()) {
+  if (!report_.updated || !budget.may_register || !registrar_->sees_anything()) {
     return;
   }
   ask(challengers_.take_due());
