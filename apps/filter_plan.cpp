@@ -68,6 +68,9 @@ std::vector<FilterPlan::Piece> pieces_of(const FilterPlan& plan, const AblateOpt
   for (std::size_t task = 0; task < plan.tasks.size(); ++task) {
     for (std::size_t method = 0; method < plan.methods.size(); ++method) {
       const bool draws = plan.methods[method].method == Method::Mcl;
+      if (!draws && plan.tasks[task].start == FilterStart::Anywhere) {
+        continue;  // it needs a pose to go on from
+      }
       for (int i = 0; i < (draws ? options.seeds : 1); ++i) {
         pieces.push_back(
             {.task = task, .method = method, .seed = options.seed + static_cast<std::uint64_t>(i)});

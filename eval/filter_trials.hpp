@@ -51,6 +51,7 @@ struct FilterTask {
   std::string set;
   std::string kind;  ///< of sets that make one row
   std::function<FilterData()> make;
+  FilterStart start = FilterStart::Reference;  ///< of the data
 };
 
 /// How far off one method with one seed was at the scored steps of one set.

@@ -107,6 +107,9 @@ std::vector<FilterTask> lost_drives(const FilterSuiteParams& params, std::uint64
     data.start = FilterStart::Anywhere;
     return data;
   });
+  for (FilterTask& task : tasks) {
+    task.start = FilterStart::Anywhere;
+  }
   add("kidnapped", [=](const DriveName& name) { return kidnapped_drive(name, drive_m, seed); });
   add("wrong drawing",
       [=](const DriveName& name) { return drive_in_wrong_drawing(name, drive_m, seed); });
