@@ -56,8 +56,8 @@ TEST(MessageIo, ReadsOdometryAndScansAlone) {
 }
 
 TEST(MessageIo, TakesNanAndInfinityForNull) {
-  const ReadMessage read = parse(std::string(R"({"time_s": 1, )") + kScan +
-                                 "[1, NaN, nan, Infinity, -Infinity, 2]}}");
+  const ReadMessage read =
+      parse(std::string(R"({"time_s": 1, )") + kScan + "[1, NaN, nan, Infinity, -Infinity, 2]}}");
   EXPECT_TRUE(read.had_nan);
   ASSERT_EQ(read.message.scan->ranges_m.size(), 6U);
   for (const std::size_t beam : {1U, 2U, 3U, 4U}) {
