@@ -21,11 +21,10 @@ void add_ablate_command(CLI::App& program) {
          "same with what may go wrong; real: the runs of --set alone")
       ->check(CLI::IsMember({"registration", "filter", "robust", "real"}))
       ->capture_default_str();
-  option(
-      "--methods", options->methods,
-      "Rows (default all). registration: ours, chen20, affine, icp, none (keep the prior); the "
-      "first is shown in pictures. Others: odometry; icp, affine, chen20, ours (one registration "
-      "after the other); mcl, mcl+measure, mcl+propose, mcl+both")
+  option("--methods", options->methods,
+         "Rows (default all). registration: ours, chen20, affine, icp, none (keep the prior); the "
+         "first is shown in pictures. Others: odometry; icp, affine, chen20, ours_chained (one "
+         "registration after the other); mcl, mcl+measure, mcl+propose, ours")
       ->delimiter(',');
   option("--network", options->networks, "Another network for a method")
       ->type_name("METHOD=FILE.onnx");

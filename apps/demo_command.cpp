@@ -35,7 +35,7 @@ void run_demo(const DemoOptions& options) {
   localize.map = sample("office/drawing.png");
   localize.log = sample("office/log.jsonl.gz");
   localize.reference = sample("office/reference.csv");
-  localize.start_from_reference = true;
+  localize.start.from_reference = true;
   localize.out = options.out;
   localize.force = true;  // of its own earlier result; a foreign folder is refused all the same
   localize.title = "A simulated robot in a simulated person's drawing of an office";

@@ -17,32 +17,23 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What was given for the method's registration.
-fs::path network_given(const AblateOptions& options, const FilterMethod& method) {
+fs::path network_given(const AblateOptions& options, const LocalizationMethod& method) {
   return network_given(options, name_of(registration_methods(), *method.registration));
 }
 
-std::vector<FilterMethod> methods_of(const AblateOptions& options) {
-  const std::vector<FilterMethod> all = filter_methods();
-  std::vector<std::string> wanted = options.methods;
-  if (wanted.empty()) {
-    std::ranges::transform(all, std::back_inserter(wanted), &FilterMethod::name);
+std::vector<LocalizationMethod> methods_of(const AblateOptions& options) {
+  std::vector<LocalizationMethod> wanted;
+  if (options.methods.empty()) {
+    std::ranges::copy(localization_methods(), std::back_inserter(wanted));
   }
-  std::vector<FilterMethod> methods;
-  for (const std::string& name : wanted) {
-    const auto found = std::ranges::find(all, name, &FilterMethod::name);
-    if (found == all.end()) {
-      std::string names;
-      for (const FilterMethod& method : all) {
-        names += (names.empty() ? "" : ", ") + method.name;
-      }
-      throw std::invalid_argument("--methods: there is no " + name + "; there are " + names);
-    }
-    if (!found->registration ||
-        can_run(*found->registration, name, network_given(options, *found))) {
-      methods.push_back(*found);
-    }
+  for (const std::string& name : options.methods) {
+    wanted.push_back(localization_method(name));
   }
-  return methods;
+  std::erase_if(wanted, [&](const LocalizationMethod& method) {
+    return method.registration &&
+           !can_run(*method.registration, method.name, network_given(options, method));
+  });
+  return wanted;
 }
 
 FilterTask recorded_task(const RecordedSet& recorded) {
@@ -86,7 +77,7 @@ void check_names(const FilterPlan& plan) {
   std::ranges::transform(plan.tasks, std::back_inserter(sets), &FilterTask::set);
   check_set_names(sets);
   std::set<std::string> names;
-  for (const FilterMethod& method : plan.methods) {
+  for (const LocalizationMethod& method : plan.methods) {
     if (!names.insert(method.name).second) {
       throw std::invalid_argument("--methods: " + method.name + " is there twice");
     }
@@ -127,7 +118,7 @@ FilterPlan filter_plan(const AblateOptions& options) {
         std::string(options.suite == "real" ? "" : ", or --drives.plans above 0, and a method"));
   }
   check_names(plan);
-  for (const FilterMethod& method : plan.methods) {
+  for (const LocalizationMethod& method : plan.methods) {
     if (method.registration) {
       plan.predictor(*method.registration);  // it says what is wrong with the network
     }
@@ -160,7 +151,7 @@ std::string fingerprints_of(const AblateOptions& options, const FilterPlan& plan
 
 FilterTrial FilterWorker::run(const FilterPlan::Piece& piece) {
   static std::mutex icp;  // Open3D has global state
-  const FilterMethod& method = plan_.methods.at(piece.method);
+  const LocalizationMethod& method = plan_.methods.at(piece.method);
   const auto alone = method.registration == RegistrationMethod::Icp
                          ? std::unique_lock(icp)
                          : std::unique_lock<std::mutex>();
@@ -176,7 +167,7 @@ const FilterData& FilterWorker::data_of(std::size_t task) {
   return data_;
 }
 
-WarpPredictor* FilterWorker::predictor_of(const FilterMethod& method) {
+WarpPredictor* FilterWorker::predictor_of(const LocalizationMethod& method) {
   if (!method.registration) {
     return nullptr;
   }

@@ -22,7 +22,7 @@ struct FilterPlan {
   };
 
   AblateParams params;
-  std::vector<FilterMethod> methods;
+  std::vector<LocalizationMethod> methods;
   std::vector<FilterTask> tasks;
   std::vector<Piece> pieces;                                     ///< in the order of the results
   std::map<RegistrationMethod, std::filesystem::path> networks;  ///< that were given
@@ -51,7 +51,7 @@ class FilterWorker {
 
  private:
   const FilterData& data_of(std::size_t task);
-  WarpPredictor* predictor_of(const FilterMethod& method);
+  WarpPredictor* predictor_of(const LocalizationMethod& method);
 
   const FilterPlan& plan_;
   std::optional<std::size_t> task_;  ///< whose data are there

@@ -1,15 +1,12 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/parameter_options.hpp"
+#include "apps/localizer_options.hpp"
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/sketch_io.hpp"
-#include "eval/localization.hpp"
 
 namespace CLI {
 class App;
@@ -25,16 +22,8 @@ struct LocalizeOptions {
   std::filesystem::path reference;  ///< empty: none
   std::vector<std::filesystem::path> alternatives;
 
-  std::string start;  ///< "X,Y,HEADING_DEG[,PX_PER_M]" in the sketch frame; empty: none
-  bool start_from_reference = false;
-  bool global = false;
-
-  Method method = Method::Mcl;
-  OdometrySource odometry = OdometrySource::Matched;
-  std::string registration = "none";  ///< or the name of a RegistrationMethod
-  std::filesystem::path network;      ///< of the registration; empty: the one that comes with it
-  std::uint64_t seed = 1;
-  unsigned jobs = 1;  ///< threads; 0: one per core
+  StartOptions start;
+  MethodOptions method;
 
   RunReading reading;     ///< of the log
   SketchReading drawing;  ///< of the map

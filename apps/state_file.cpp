@@ -1,9 +1,11 @@
 #include "apps/state_file.hpp"
 
+#include <span>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "apps/fingerprint.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "motion/state_bytes.hpp"
 
@@ -11,7 +13,7 @@ namespace sketchloc {
 namespace {
 
 constexpr std::string_view kMagic = "sketchloc state\n";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {
@@ -38,15 +40,11 @@ constexpr const char* kAdvice =
     "--force "
     "instead of --resume";
 
-}  // namespace
-
-std::uint64_t fingerprint(std::string_view bytes) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  for (const char byte : bytes) {
-    hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3ULL;
-  }
-  return hash;
+std::string print_of(std::string_view content) {
+  return fingerprint(std::as_bytes(std::span(content)));
 }
+
+}  // namespace
 
 std::string state_file_bytes(std::string_view what, std::string_view state) {
   StateWriter content;
@@ -54,7 +52,7 @@ std::string state_file_bytes(std::string_view what, std::string_view state) {
   content.put_text(state);
   StateWriter file;
   file.put(kVersion);
-  file.put(fingerprint(content.bytes()));
+  file.put_text(print_of(content.bytes()));
   file.put_text(content.bytes());
   return std::string(kMagic) + file.bytes();
 }
@@ -70,9 +68,9 @@ std::string state_in(std::string_view bytes, std::string_view what,
       fail(file, "is a state of version " + std::to_string(version) +
                      ", this program keeps version " + std::to_string(kVersion) + kAdvice);
     }
-    const auto print = whole.get<std::uint64_t>();
+    const std::string print = whole.get_text(kMostBytes);
     const std::string content = whole.get_text(kMostBytes);
-    if (!whole.at_end() || fingerprint(content) != print) {
+    if (!whole.at_end() || print_of(content) != print) {
       fail(file, std::string("is damaged") + kAdvice);
     }
     StateReader parts(content);

@@ -20,9 +20,6 @@ std::string state_file_bytes(std::string_view what, std::string_view state);
 std::string state_in(std::string_view bytes, std::string_view what,
                      const std::filesystem::path& file);
 
-/// FNV-1a, 64 bits: tells files apart, protects from accidents, not from people.
-std::uint64_t fingerprint(std::string_view bytes);
-
 /// Keeps states in a file, each whole or not at all, in a thread of its own: flushing to the disk
 /// takes longer than a scan may.
 class StateKeeper {

@@ -5,20 +5,17 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <map>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
-#include "apps/given_network.hpp"
+#include "apps/fingerprint.hpp"
 #include "apps/inputs.hpp"
 #include "apps/line_sink.hpp"
 #include "apps/option_checks.hpp"
-#include "apps/parallel.hpp"
 #include "apps/program.hpp"
+#include "apps/read_bytes.hpp"
 #include "apps/read_options.hpp"
 #include "apps/replay_source.hpp"
 #include "apps/start_pose.hpp"
@@ -37,10 +34,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kUsualDeadline_ms = 50.0;
-constexpr const char* kNoRegistration = "none";
-
-const std::map<std::string, OdometrySource> kOdometrySources = {
-    {"matched", OdometrySource::Matched}, {"raw", OdometrySource::Raw}};
 
 /// The drawing of a data set, or the drawing itself.
 fs::path drawing_of(const fs::path& map) {
@@ -83,45 +76,17 @@ void check_options(const TrackOptions& options) {
   if ((options.reading.max_range_m || options.reading.allow_truncated) && options.replay.empty()) {
     throw std::invalid_argument("--max-range-m and --allow-truncated are of a --replay");
   }
-  if (!options.network.empty() && options.registration == kNoRegistration) {
-    throw std::invalid_argument("--network needs a --registration that runs one");
-  }
   if (options.resume && options.state.empty()) {
     throw std::invalid_argument("--resume needs the --state to go on from");
   }
   if (!options.state.empty()) {
     check_state(options);
   }
-  if (options.start_from_reference && !fs::is_directory(options.map)) {
+  if (options.start.from_reference && !fs::is_directory(options.map)) {
     throw std::invalid_argument(
         "--start-from-reference needs a data set with a reference.csv, but " +
         options.map.string() + " is no folder; give --start");
   }
-}
-
-TrackParams defaults_for(const Sketch& sketch) {
-  TrackParams defaults;
-  if (sketch.px_per_m) {
-    defaults.localizer = metric_localizer_params();
-  }
-  return defaults;
-}
-
-TrackParams parameters_for(const Sketch& sketch, const TrackOptions& options) {
-  TrackParams params = parameters_from<TrackParams>(options.parameters, defaults_for(sketch));
-  params.localizer.seed = options.seed;
-  params.localizer.jobs = static_cast<int>(std::min(thread_count(options.jobs), 1024U));
-  validate(params);
-  return params;
-}
-
-std::unique_ptr<WarpPredictor> predictor_of(const TrackOptions& options,
-                                            const TrackParams& params) {
-  if (options.registration == kNoRegistration) {
-    return nullptr;
-  }
-  run_networks_on_one_thread();
-  return predictor_from(RegistrationMethod::Ours, options.network, params.predictor);
 }
 
 /// The first look of a network takes many times as long as the others: before the first scan comes.
@@ -142,7 +107,7 @@ void warm_up(WarpPredictor& predictor, const Sketch& sketch, const TrackParams& 
 
 /// How the filter starts: at a pose if one was given, else anywhere.
 StartLocalizer starter_of(const TrackOptions& options, const NamedSketch& drawing) {
-  if (options.start_from_reference) {
+  if (options.start.from_reference) {
     const Reference reference =
         read_reference(options.map / "reference.csv", drawing.sketch.height_px());
     if (reference.poses.empty()) {
@@ -152,8 +117,8 @@ StartLocalizer starter_of(const TrackOptions& options, const NamedSketch& drawin
     const Sim2 pose = reference.poses.front().sketch_from_robot;
     return [pose](Localizer& localizer, const Scan&) { return localizer.start_at(pose), true; };
   }
-  if (!options.start.empty()) {
-    const StartPose start = start_pose_in(options.start, "--start", drawing);
+  if (!options.start.pose.empty()) {
+    const StartPose start = start_pose_in(options.start.pose, "--start", drawing);
     return [start, &sketch = drawing.sketch](Localizer& localizer, const Scan& scan) {
       const std::optional<Sim2> pose = pose_at(start, "--start", sketch, scan);
       if (pose) {
@@ -172,37 +137,30 @@ StartLocalizer starter_of(const TrackOptions& options, const NamedSketch& drawin
   };
 }
 
-std::string bytes_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// All that a state depends on, in lines.
 std::string what_a_state_is_of(const TrackOptions& options, const Sketch& sketch,
                                const TrackParams& params) {
-  std::string cells;
-  for (int row = 0; row < sketch.height_px(); ++row) {
-    const auto cells_of_row = sketch.occupied.row(row);
-    cells.append(cells_of_row.begin(), cells_of_row.end());
-  }
-  std::string text = fmt::format("program: {}\ndrawing: {} x {} px, {:016x}\n", version_text(),
-                                 sketch.width_px(), sketch.height_px(), fingerprint(cells));
+  std::string text = fmt::format("program: {}\ndrawing: {} x {} px, {}\n", version_text(),
+                                 sketch.width_px(), sketch.height_px(),
+                                 fingerprint(std::as_bytes(std::span(sketch.occupied.cells()))));
   text += "px_per_m: " + (sketch.px_per_m ? number_text(*sketch.px_per_m) : "unknown") + "\n";
-  text += "odometry: " + name_of(kOdometrySources, options.odometry) + "\n";
-  text += "registration: " + options.registration + "\n";
-  text += options.network.empty()
-              ? "network: the program's own\n"
-              : fmt::format("network: {:016x}\n", fingerprint(bytes_of(options.network)));
-  text += "seed: " + number_text(options.seed) + "\n";
+  text += "odometry: " + name_of(odometry_sources(), options.method.odometry) + "\n";
+  text += "method: " + method_of(options.method, sketch).name + "\n";
+  const fs::path& network = options.method.network;
+  text += "network: " +
+          (network.empty() ? std::string("the program's own") : fingerprint_of_file(network)) +
+          "\n";
+  text += "seed: " + number_text(options.method.seed) + "\n";
   return text + to_yaml(to_config(params));
 }
 
 void resume(Tracker& tracker, const TrackOptions& options, const std::string& what) {
-  if (!fs::exists(options.state)) {
+  const std::optional<std::string> file = read_bytes(options.state);
+  if (!file) {
     spdlog::info("{} is not there yet; begins anew", options.state.string());
     return;
   }
-  const std::string bytes = state_in(bytes_of(options.state), what, options.state);
+  const std::string bytes = state_in(*file, what, options.state);
   try {
     StateReader reader(bytes);
     tracker.load(reader);
@@ -254,14 +212,16 @@ void run_track(const TrackOptions& options) {
   check_options(options);
   const fs::path file = drawing_of(options.map);
   const Sketch sketch = read_drawing_input(file, options.drawing);
-  const TrackParams params = parameters_for(sketch, options);
-  const std::unique_ptr<WarpPredictor> predictor = predictor_of(options, params);
+  const auto params = parameters_for<TrackParams>(sketch, options.parameters, options.method);
+  const LocalizationMethod& method = method_of(options.method, sketch);
+  const std::unique_ptr<WarpPredictor> predictor =
+      predictor_of(method, options.method, params.predictor);
   const NamedSketch drawing{sketch, file};
   const Run replayed =
       options.replay.empty() ? Run() : read_log_input(options.replay, options.reading);
 
-  Localizer localizer(sketch, params.localizer, predictor.get());
-  OdometryFeed odometry(options.odometry, params.odometry);
+  Localizer localizer(sketch, params_of(method, params.localizer), predictor.get());
+  OdometryFeed odometry(options.method.odometry, params.odometry);
   const std::optional<double> deadline_s = deadline_of(options);
   Tracker tracker(params.tracker, {.localizer = localizer,
                                    .odometry = odometry,
@@ -292,26 +252,15 @@ void run_track(const TrackOptions& options) {
 
 namespace {
 
-/// At most one of them; what the command line says replaces any other of a --config file.
-void add_start_options(CLI::App& command, TrackOptions& options) {
-  CLI::Option* start =
-      command
-          .add_option("--start", options.start,
-                      "Where the robot starts in the drawing: x right and y up from the lower left "
-                      "corner in px, heading counter-clockwise")
-          ->check([](const std::string& text) { return parse_start_pose(text), std::string(); })
-          ->group(kAlgorithmGroup)
-          ->type_name("X,Y,HEADING_DEG[,PX_PER_M]");
-  CLI::Option* from_reference =
-      command
-          .add_flag("--start-from-reference", options.start_from_reference,
-                    "Start at the first pose of the data set's reference")
-          ->group(kAlgorithmGroup);
-  CLI::Option* global =
-      command.add_flag("--global", options.global, "Start anywhere in the drawing (default)")
-          ->group(kAlgorithmGroup);
-  start->excludes(from_reference)->excludes(global);
-  from_reference->excludes(global);
+/// The methods that run online.
+std::vector<std::string> filters() {
+  std::vector<std::string> names;
+  for (const LocalizationMethod& method : localization_methods()) {
+    if (method.method == Method::Mcl) {
+      names.push_back(method.name);
+    }
+  }
+  return names;
 }
 
 void add_algorithm_options(CLI::App& command, TrackOptions& options) {
@@ -323,29 +272,8 @@ void add_algorithm_options(CLI::App& command, TrackOptions& options) {
       ->group(kAlgorithmGroup)
       ->type_name("DRAWING|DATA_SET");
   add_drawing_options(command, options.drawing, "Of the drawing");
-  add_start_options(command, options);
-  add_named_option(command, "--odometry", options.odometry, kOdometrySources,
-                   "matched (refined by scan matching) or raw")
-      ->group(kAlgorithmGroup);
-  command
-      .add_option("--registration", options.registration,
-                  "What registers scans to help the filter: none or ours")
-      ->check(one_of(std::vector<std::string>{kNoRegistration, "ours"}))
-      ->group(kAlgorithmGroup)
-      ->type_name("NAME")
-      ->capture_default_str();
-  command
-      .add_option("--network", options.network,
-                  "A network that sketchloc train made, instead of the one that comes with the "
-                  "program")
-      ->group(kAlgorithmGroup)
-      ->type_name("FILE.onnx");
-  command
-      .add_option("--seed", options.seed,
-                  "Of all randomness; the same seed gives the same result without a deadline")
-      ->check(whole_number())
-      ->group(kAlgorithmGroup)
-      ->capture_default_str();
+  add_start_options(command, options.start, "the data set's reference");
+  add_method_options(command, options.method, filters());
 }
 
 /// Where messages come from, at most one of them, and when.
@@ -410,9 +338,9 @@ void add_output_options(CLI::App& command, TrackOptions& options) {
 
 /// The defaults for the map that was given, as far as it was.
 ConfigNode default_parameters(const TrackOptions& options) {
-  return to_config(options.map.empty()
-                       ? TrackParams{}
-                       : defaults_for(read_any_drawing(drawing_of(options.map), options.drawing)));
+  return to_config(options.map.empty() ? TrackParams{}
+                                       : defaults_for<TrackParams>(read_any_drawing(
+                                             drawing_of(options.map), options.drawing)));
 }
 
 }  // namespace
@@ -427,7 +355,7 @@ void add_track_command(CLI::App& program) {
       *command, [options = options.get()] { return default_parameters(*options); },
       options->parameters);
   add_output_options(*command, *options);
-  add_jobs_option(*command, options->jobs);
+  add_jobs_option(*command, options->method.jobs);
   command->callback([options] { run_track(*options); });
 }
 

@@ -3,9 +3,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <string>
 
-#include "apps/parameter_options.hpp"
+#include "apps/localizer_options.hpp"
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/sketch_io.hpp"
 #include "filter/online/tracker.hpp"
@@ -39,14 +38,8 @@ void validate(const TrackParams& params);
 struct TrackOptions {
   std::filesystem::path map;  ///< a drawing, or a folder with one and its reference
 
-  std::string start;  ///< "X,Y,HEADING_DEG[,PX_PER_M]" in the sketch frame; empty: none
-  bool start_from_reference = false;
-  bool global = false;
-  OdometrySource odometry = OdometrySource::Matched;
-  std::string registration = "none";  ///< or ours
-  std::filesystem::path network;      ///< of the registration; empty: the one that comes with it
-  std::uint64_t seed = 1;
-  unsigned jobs = 1;  ///< threads; 0: one per core
+  StartOptions start;
+  MethodOptions method;
 
   bool from_stdin = false;  ///< the default
   std::optional<std::uint16_t> listen;

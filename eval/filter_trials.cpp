@@ -105,19 +105,6 @@ std::vector<StepError> errors_of(const Json& json) {
 
 }  // namespace
 
-std::vector<FilterMethod> filter_methods() {
-  using enum RegistrationMethod;
-  return {{.name = "odometry", .method = Method::Odometry, .registration = {}},
-          {.name = "icp", .method = Method::Chained, .registration = Icp},
-          {.name = "affine", .method = Method::Chained, .registration = Affine},
-          {.name = "chen20", .method = Method::Chained, .registration = Chen20},
-          {.name = "ours", .method = Method::Chained, .registration = Ours},
-          {.name = "mcl", .registration = {}},
-          {.name = "mcl+measure", .registration = Ours, .measure = true},
-          {.name = "mcl+propose", .registration = Ours, .propose = true},
-          {.name = "mcl+both", .registration = Ours, .propose = true, .measure = true}};
-}
-
 void check_start(const std::string& set, const FilterData& data) {
   const auto& poses = data.reference.poses;
   if (poses.empty() || poses.front().step != 0) {
@@ -126,15 +113,14 @@ void check_start(const std::string& set, const FilterData& data) {
 }
 
 FilterTrial run_filter_trial(const FilterTask& task, const FilterData& data,
-                             const FilterMethod& method, const LocalizationParams& params,
+                             const LocalizationMethod& method, const LocalizationParams& params,
                              std::uint64_t seed, WarpPredictor* predictor) {
   if (data.start != FilterStart::Anywhere) {
     check_start(task.set, data);
   }
   LocalizationParams used = params;
+  used.localizer = params_of(method, params.localizer);
   used.localizer.seed = seed;
-  used.localizer.fusion.propose = method.propose;
-  used.localizer.fusion.measure = method.measure;
   const Localization found =
       localize(data.sketch, data.run,
                {.method = method.method,

@@ -9,25 +9,10 @@
 #include "datasets/reference.hpp"
 #include "datasets/run.hpp"
 #include "datasets/sketch.hpp"
-#include "eval/localization.hpp"
-#include "eval/predictors.hpp"
+#include "eval/localization_methods.hpp"
 #include "eval/sketch_errors.hpp"
 
 namespace sketchloc {
-
-/// A row of the filter suites: what finds the robot, and what registers scans for it.
-struct FilterMethod {
-  std::string name;
-  Method method = Method::Mcl;
-  std::optional<RegistrationMethod> registration;
-  bool propose = false;
-  bool measure = false;
-};
-
-/// All that there are: `odometry`; `ours`, `chen20`, `affine` and `icp`, chained; `mcl` alone; and
-/// with registrations of ours to measure, to propose, or both: `mcl+measure`, `mcl+propose`,
-/// `mcl+both`.
-std::vector<FilterMethod> filter_methods();
 
 /// What a run starts with.
 enum class FilterStart {
@@ -74,7 +59,7 @@ inline constexpr double kNowhereM = 1e6;
 /// Finds the robot of a set by a method, from the start that the set has. What the method switches
 /// on or off replaces what `params` say. Throws std::runtime_error where the set has no start.
 FilterTrial run_filter_trial(const FilterTask& task, const FilterData& data,
-                             const FilterMethod& method, const LocalizationParams& params,
+                             const LocalizationMethod& method, const LocalizationParams& params,
                              std::uint64_t seed, WarpPredictor* predictor);
 
 /// A trial as JSON, and back. Throws std::runtime_error where the text is not of a trial.

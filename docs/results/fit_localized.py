@@ -2,7 +2,7 @@
 """Fits the numbers of LocalizedParams (filter/localized_belief.hpp) to runs of `sketchloc ablate
 --suite robust` made without challengers: least log loss of the stated probability over all steps.
 
-    sketchloc ablate --suite robust --seed 501 --methods mcl mcl+both --drives.drawings 1 \
+    sketchloc ablate --suite robust --seed 501 --methods mcl ours --drives.drawings 1 \
         --filter.localizer.challengers.count 0 --out OUT
     docs/results/fit_localized.py OUT/trials.jsonl
 
@@ -99,7 +99,7 @@ def fit(trials, free, start):
 
 
 def main():
-    for method, free in (("mcl", [0, 1, 3, 4, 5]), ("mcl+both", [0, 1, 2, 3, 4, 5])):
+    for method, free in (("mcl", [0, 1, 3, 4, 5]), ("ours", [0, 1, 2, 3, 4, 5])):
         trials = [trial for path in sys.argv[1:] for trial in read(path, method)]
         if not trials:
             continue

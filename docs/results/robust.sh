@@ -9,13 +9,13 @@ data=${SKETCHLOC_DATA:-$here/../shared/data}
 out=${1:?usage: robust.sh OUT_DIR [SEEDS_REAL [OPTIONS...]]}
 mkdir -p "$out"
 
-"$sketchloc" ablate --suite robust --methods mcl,mcl+both --out "$out/robust" --force "${@:3}"
+"$sketchloc" ablate --suite robust --methods mcl,ours --out "$out/robust" --force "${@:3}"
 
 # One real run from a start, tracked or global.
 run() { # drawing log alternative-or-empty row seed start-option
   # shellcheck disable=SC2086
   "$sketchloc" localize --map "$data/sketches/$1.png" --log "$data/logs/$2.log.gz" \
-    --reference "$data/references/$1/reference.csv" $3 --registration ours "$6" \
+    --reference "$data/references/$1/reference.csv" $3 --method ours "$6" \
     --seed "$5" --out "$out/$2/$4/$5" --force >/dev/null
 }
 

@@ -51,21 +51,21 @@ rate() { # NAME HZ
 }
 
 log=$simulated/log.jsonl
-follow simulated_free "$simulated" "$log" 0 --start-from-reference --registration ours
+follow simulated_free "$simulated" "$log" 0 --start-from-reference --method ours
 r20=$(rate simulated_free 20)
 r100=$(rate simulated_free 100)
-follow simulated_20 "$simulated" "$log" "$r20" --start-from-reference --registration ours
-follow simulated_20_state "$simulated" "$log" "$r20" --start-from-reference --registration ours --state "$out/track.state"
+follow simulated_20 "$simulated" "$log" "$r20" --start-from-reference --method ours
+follow simulated_20_state "$simulated" "$log" "$r20" --start-from-reference --method ours --state "$out/track.state"
 follow simulated_100 "$simulated" "$log" "$r100" --start-from-reference --deadline-ms 10
-follow simulated_tight "$simulated" "$log" "$r20" --start-from-reference --registration ours --deadline-ms 10
+follow simulated_tight "$simulated" "$log" "$r20" --start-from-reference --method ours --deadline-ms 10
 if [ -d "$data" ]; then
   drawing=$data/sketches/intel_sketch_3_rot180.png
   start=$(awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) column[$i] = i }
     NR == 2 { printf "%.1f,%.1f,%.1f,%.2f", $column["sketch_x_px"] + 0.5, h - 0.5 - $column["sketch_y_px"],
               -57.29578 * $column["heading_rigid_rad"], $column["local_scale_px_per_m"] }' \
     h="$(file "$drawing" | sed -E 's/.* x ([0-9]+),.*/\1/')" "$data/references/intel_sketch_3_rot180/reference.csv")
-  follow intel_free "$drawing" "$data/logs/intel.log.gz" 0 --start "$start" --registration ours
-  follow intel_20 "$drawing" "$data/logs/intel.log.gz" "$(rate intel_free 20)" --start "$start" --registration ours
+  follow intel_free "$drawing" "$data/logs/intel.log.gz" 0 --start "$start" --method ours
+  follow intel_20 "$drawing" "$data/logs/intel.log.gz" "$(rate intel_free 20)" --start "$start" --method ours
   follow intel_100 "$drawing" "$data/logs/intel.log.gz" "$(rate intel_free 100)" --start "$start" --deadline-ms 10
 else
   echo "track.sh: no $data; the real log is left out" >&2

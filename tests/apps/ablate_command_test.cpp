@@ -139,8 +139,8 @@ class AblateWholeRunsEndToEnd : public AblateCommandEndToEnd {
     }
   }
 
-  const std::vector<std::string> kTwoSeeds = {"--methods", "odometry,ours,mcl,mcl+both", "--seeds",
-                                              "2"};
+  const std::vector<std::string> kTwoSeeds = {"--methods", "odometry,ours_chained,mcl,ours",
+                                              "--seeds", "2"};
 };
 
 std::vector<std::string> joined(std::vector<std::string> some,
@@ -255,7 +255,7 @@ TEST_F(AblateCommandEndToEnd, SaysWhatIsWrongWithWholeRuns) {
     EXPECT_FALSE(fs::exists(in("out.unfinished")));
   };
   refuses({"--suite", "real", "--methods", "mcl"}, "nothing to run");
-  refuses({"--suite", "filter", "--methods", "none"}, "there is no none");
+  refuses({"--suite", "filter", "--methods", "none"}, "there is no method none");
   refuses({"--suite", "filter", "--methods", "mcl", "--drives.drive_m", "0"}, "drive_m");
   refuses({"--suite", "filter", "--methods", "mcl", "--seeds", "0"}, "--seeds");
 }

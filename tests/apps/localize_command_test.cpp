@@ -191,13 +191,8 @@ TEST_F(LocalizeCommandEndToEnd, SaysWhatIsWrongWithItsOptions) {
   fails_with({"--start-from-reference"}, "needs --reference");
   fails_with({"--method", "odometry"}, "needs --start");
   fails_with({"--method", "magic"}, "--method");
-  fails_with({"--method", "chained", "--start", "20,20,0"}, "needs a --registration");
-  fails_with({"--method", "chained", "--registration", "ours"}, "needs --start");
-  fails_with({"--registration", "magic"}, "there is no registration magic");
-  fails_with({"--network", "ours.onnx"}, "needs a --registration");
-  fails_with({"--registration", "chen20"}, "does not say how sure it is");
-  fails_with({"--method", "odometry", "--start", "20,20,0", "--registration", "ours"},
-             "uses no --registration");
+  fails_with({"--method", "chen20"}, "needs --start");
+  fails_with({"--method", "mcl", "--network", "ours.onnx"}, "--method mcl runs no network");
   fails_with({"--localizer.fusion.max_modes", "0"}, "max_modes");
   fails_with({"--start", "1,2"}, "X,Y,HEADING_DEG");
   fails_with({"--localizer.gate.way_m", "-1"}, "way_m");
@@ -287,8 +282,7 @@ TEST_F(LocalizeCommandEndToEnd, NamesTheFlagWhereAValueMakesNoSense) {
     return result.err;
   };
   EXPECT_THAT(message({"--seed", "-1"}), HasSubstr("--seed: must be a whole number, 0 or more"));
-  EXPECT_THAT(message({"--method", "foo"}),
-              HasSubstr("--method: must be chained, mcl or odometry, but it is 'foo'"));
+  EXPECT_THAT(message({"--method", "foo"}), HasSubstr("mcl+propose or ours, but it is 'foo'"));
   EXPECT_THAT(message({"--max-range-m", "0"}),
               HasSubstr("must be a number above 0, but it is '0'"));
   EXPECT_THAT(message({"--start", ""}), HasSubstr("--start must be X,Y,HEADING_DEG"));

@@ -340,7 +340,7 @@ TEST_F(TrackCommandEndToEnd, RefusesOptionsThatDoNotFitTogether) {
   EXPECT_THAT(refused({"--listen", "99999"}), HasSubstr("must be a port"));
   EXPECT_THAT(refused({"--listen", "0", "--replay", log()}), HasSubstr("--listen"));
   EXPECT_THAT(refused({"--deadline-ms", "-1"}), HasSubstr("--deadline-ms"));
-  EXPECT_THAT(refused({"--registration", "icp"}), HasSubstr("none or ours"));
+  EXPECT_THAT(refused({"--method", "icp"}), HasSubstr("mcl+propose or ours"));
   EXPECT_THAT(refused({"--start", "1,2"}), HasSubstr("--start"));
   EXPECT_THAT(refused({"--start", "-5,2,0"}), HasSubstr("outside"));
   EXPECT_THAT(refused({"--out", log()}), HasSubstr("exists"));
