@@ -35,7 +35,7 @@ std::vector<std::string> all_but_apps_and(std::initializer_list<std::string> mor
 const std::vector<Folder>& floor_plan() {
   static const std::vector<Folder> plan = {
       {"motion", {}, {}},
-      {"motion/graph", {"motion"}, {"ceres", "suitesparse"}},
+      {"motion/graph", {"motion"}, {"suitesparse"}},
       {"datasets", {"motion"}, {}},
       {"datasets/io", {"motion", "datasets"}, {"opencv", "json", "yaml", "zlib"}},
       {"datasets/sim", {"motion", "datasets", "registration"}, {}},
@@ -52,7 +52,7 @@ const std::vector<Folder>& floor_plan() {
       {"apps", all_but_apps_and({"eval"}), {"cli11", "spdlog", "yaml", "json", "mpi"}},
       {"tests",
        all_but_apps_and({"eval", "apps"}),
-       {"googletest", "opencv", "torch", "json", "yaml", "zlib", "highway", "cli11"}},
+       {"googletest", "opencv", "torch", "json", "yaml", "zlib", "highway", "cli11", "ceres"}},
   };
   return plan;
 }
