@@ -24,6 +24,8 @@ void validate(const ChallengerParams& params) {
   require_at_least("calm_priors_per_m", params.calm_priors_per_m, 0.0);
   require_in_range("max_priors", params.max_priors, 1, 64);
   require_in_range("keep_log_odds", params.keep_log_odds, -20.0, 20.0);
+  require_in_range("established_log_odds", params.established_log_odds, -20.0, 20.0);
+  require_in_range("lost_log_odds", params.lost_log_odds, -20.0, 20.0);
   require_at_least("take_over_log_odds", params.take_over_log_odds, 0.0);
   require_in_range("take_over_probability", params.take_over_probability, 0.0, 1.0);
   require_above("apart_m", params.apart_m, 0.0);

@@ -17,14 +17,16 @@ namespace sketchloc {
 /// Other places where the robot may be, found and followed by registrations: how a lost robot is
 /// found, and how it starts anywhere.
 struct ChallengerParams {
-  int count = 8;                    ///< followed at a time; 0: none, in [0, 64]
-  double way_m = 0.5;               ///< between registrations of one, > 0
-  double independent_way_m = 2.0;   ///< after which a registration knows nothing of the last, > 0
-  double lost_priors_per_m = 16;    ///< registrations for a metre of way while lost, >= 0
-  double calm_priors_per_m = 1;     ///< the same while localized, >= 0
-  int max_priors = 8;               ///< in one step, >= 1
-  double keep_log_odds = -4.2;      ///< a challenger that is less likely is given up
-  double take_over_log_odds = 3.0;  ///< more than the tracked pose's, to take its place, >= 0
+  int count = 8;                      ///< followed at a time; 0: none, in [0, 64]
+  double way_m = 0.5;                 ///< between registrations of one, > 0
+  double independent_way_m = 2.0;     ///< after which a registration knows nothing of the last, > 0
+  double lost_priors_per_m = 16;      ///< registrations for a metre of way while lost, >= 0
+  double calm_priors_per_m = 1;       ///< the same while localized, >= 0
+  int max_priors = 8;                 ///< in one step, >= 1
+  double keep_log_odds = -4.2;        ///< a challenger that is less likely is given up
+  double established_log_odds = 3.0;  ///< at which the tracked pose has proved itself
+  double lost_log_odds = -5.0;        ///< at which one that had may lose its place all the same
+  double take_over_log_odds = 3.0;    ///< more than the tracked pose's, to take its place, >= 0
   double take_over_probability = 0.6;  ///< of a challenger that does so, in [0, 1]
   double apart_m = 2.0;                ///< nearer to each other they are one, > 0
   double apart_rad = 0.6;              ///< and headed this alike, > 0
@@ -39,6 +41,8 @@ void visit_fields(ChallengerParams& params, Visitor&& visit) {
   visit("calm_priors_per_m", params.calm_priors_per_m);
   visit("max_priors", params.max_priors);
   visit("keep_log_odds", params.keep_log_odds);
+  visit("established_log_odds", params.established_log_odds);
+  visit("lost_log_odds", params.lost_log_odds);
   visit("take_over_log_odds", params.take_over_log_odds);
   visit("take_over_probability", params.take_over_probability);
   visit("apart_m", params.apart_m);

@@ -31,6 +31,7 @@ void validate(const LocalizedParams& params) {
   require_above("found_way_m", params.found_way_m, 0.0);
   require_in_range("start_log_odds", params.start_log_odds, -20.0, 20.0);
   require_in_range("anywhere_log_odds", params.anywhere_log_odds, -20.0, 20.0);
+  require_above("independent_way_m", params.independent_way_m, 0.0);
   require_above("max_ratio", params.max_ratio, 0.0);
   require_in_range("carried_contradiction", params.carried_contradiction, 0.0, 1.0);
   require_in_range("carried_slope", params.carried_slope, 0.0, 1000.0);

@@ -29,17 +29,18 @@ void visit_fields(SignWeights& weights, Visitor&& visit) {
 struct LocalizedParams {
   double bound_m = 2.0;             ///< right: the position is within this, local metres, > 0
   double bound_rad = 0.5236;        ///< and the heading within this, in (0, pi]
-  double lost_way_m = 40.0;         ///< mean way from being right to being wrong, > 0
-  double found_way_m = 100.0;       ///< and back, > 0
+  double lost_way_m = 108.0;        ///< mean way from being right to being wrong, > 0
+  double found_way_m = 50.0;        ///< and back, > 0
   double start_log_odds = 4.0;      ///< of a start that was given
   double anywhere_log_odds = -3.5;  ///< of a pose anywhere in the drawing
-  double max_ratio = 1.4;           ///< the most that one step tells, either way, > 0
+  double independent_way_m = 2.0;   ///< after which a scan tells nothing that the last told, > 0
+  double max_ratio = 3.6;           ///< the most that one step tells, either way, > 0
   /// Contradiction of two scans at which having been carried is as likely as not.
-  double carried_contradiction = 0.15;
+  double carried_contradiction = 0.1;
   double carried_slope = 100.0;  ///< log odds for a contradiction that is greater by 1, >= 0
   ContradictionParams contradiction{};
   SignWeights beams{.bias = 0.04};  ///< without registrations
-  SignWeights registered{.bias = 0.33, .evidence = 2.3, .inlier = 1.1};
+  SignWeights registered{.bias = -0.18, .evidence = 1.0, .inlier = 0.63};
 };
 
 template <typename Visitor>
@@ -50,6 +51,7 @@ void visit_fields(LocalizedParams& params, Visitor&& visit) {
   visit("found_way_m", params.found_way_m);
   visit("start_log_odds", params.start_log_odds);
   visit("anywhere_log_odds", params.anywhere_log_odds);
+  visit("independent_way_m", params.independent_way_m);
   visit("max_ratio", params.max_ratio);
   visit("carried_contradiction", params.carried_contradiction);
   visit("carried_slope", params.carried_slope);

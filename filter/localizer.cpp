@@ -152,6 +152,7 @@ void Localizer::forget() {
 void Localizer::start_at(const Sim2& sketch_from_robot) {
   forget();
   belief_.log_odds = params_.localized.start_log_odds;
+  established_ = belief_.log_odds >= params_.challengers.established_log_odds;
   particles_.resize(params_.particles.max_particles);
   for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t chunk, ParticleRange range) {
     Rng rng = make_rng(params_.seed, kStart, chunk);
@@ -395,6 +396,9 @@ std::size_t Localizer::count_bins(std::span<const std::uint32_t> parents) {
 }
 
 void Localizer::recover() {
+  if (registrar_) {
+    return;  // challengers find a lost robot, and must prove themselves before they do
+  }
   if (anywhere_.empty() || !report_.resampled) {
     return;  // between resamplings the weights differ: newcomers of weight one would win
   }
@@ -451,6 +455,7 @@ GlobalStart Localizer::start_anywhere(const Scan& first_scan) {
   }
   forget();
   belief_.log_odds = params_.localized.anywhere_log_odds;
+  established_ = false;
   const ScalePrior scale{
       .log_px_per_m =
           log_px_per_m_ ? *log_px_per_m_ : anywhere_.median_log_visible_radius() - *log_radius_m,

@@ -199,6 +199,7 @@ class Localizer {
   ModeFinder mode_finder_;
   EvidenceMonitor evidence_;
   LocalizedBelief belief_;
+  bool established_ = false;  ///< the tracked pose was given, or has proved itself
   Challengers challengers_;
   std::optional<Registrar> registrar_;
   BinTable bins_;

@@ -34,8 +34,7 @@ void Localizer::believe(const std::optional<Sim2>& expected_sketch_from_robot,
   }
   report_.share_within_bounds =
       share_within_bounds(particles_, report_.estimate.sketch_from_robot, params_.localized);
-  report_.localized_probability =
-      challengers_.probability(belief_.log_odds, belief_.log_odds) * report_.share_within_bounds;
+  report_.localized_probability = report_.share_within_bounds / (1.0 + std::exp(-belief_.log_odds));
   report_.challengers = challengers_.all().size();
 }
 
@@ -47,6 +46,7 @@ void Localizer::compare_scans(const Scan& scan, const Se2& robot_from_next) {
     report_.contradiction =
         contradiction(scan, last_scan_, *last_scan_from_robot_, params_.localized.contradiction);
     belief_.add_contradiction(report_.contradiction, params_.localized);
+    established_ = established_ && report_.contradiction < params_.localized.carried_contradiction;
     for (Challenger& one : challengers_.all()) {
       one.belief.add_contradiction(report_.contradiction, params_.localized);
     }
@@ -75,6 +75,7 @@ void Localizer::follow_jump(const Sim2& expected_sketch_from_robot) {
   }
   challengers_.add({.sketch_from_robot = expected_sketch_from_robot, .belief = belief_});
   belief_ = belief;
+  established_ = false;
   challengers_.tidy(now);
 }
 
@@ -97,7 +98,7 @@ void Localizer::hear_registrations() {
   }
   report_.signs = {
       .way_m = way_since_signs_m_,
-      .new_share = std::min(1.0, way_since_signs_m_ / params_.challengers.independent_way_m),
+      .new_share = std::min(1.0, way_since_signs_m_ / params_.localized.independent_way_m),
       .evidence = nearest != nullptr ? evidence_at(*nearest) : report_.log_likelihood,
       .inlier_probability = nearest != nullptr ? nearest->inlier_probability : 0.0};
   belief_.add(*report_.signs, params_.localized);
@@ -140,7 +141,9 @@ void Localizer::challenge(const Se2& robot_from_next, const StepBudget& budget) 
     ask(std::move(newcomers));
   }
   challengers_.tidy(report_.estimate.sketch_from_robot);
-  if (challengers_.first_takes_over(belief_.log_odds)) {
+  established_ = established_ || belief_.log_odds >= params_.challengers.established_log_odds;
+  const bool contestable = !established_ || belief_.log_odds <= params_.challengers.lost_log_odds;
+  if (contestable && challengers_.first_takes_over(belief_.log_odds)) {
     take_over();
   }
 }
@@ -191,6 +194,7 @@ void Localizer::take_over() {
   normalise(particles_);
   mode_finder_.find(particles_, report_.estimate);
   challengers_.tidy(report_.estimate.sketch_from_robot);
+  established_ = false;
   report_.found_anew = true;
 }
 

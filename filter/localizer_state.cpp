@@ -50,6 +50,7 @@ void Localizer::save(StateWriter& state) const {
   state.put(updated_once_);
   save_estimate(report_.estimate, state);
   belief_.save(state);
+  state.put(established_);
   challengers_.save(state);
   state.put(report_.localized_probability);
   state.put(update_share_);
@@ -78,6 +79,7 @@ void Localizer::load(StateReader& state) {
   updated_once_ = state.get<bool>();
   load_estimate(report_.estimate, static_cast<std::size_t>(params_.modes.max_modes), state);
   belief_.load(state);
+  established_ = state.get<bool>();
   challengers_.load(state);
   report_.localized_probability = state.get_finite();
   update_share_ = state.get_finite();

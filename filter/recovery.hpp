@@ -8,7 +8,8 @@ namespace sketchloc {
 
 /// Recovery of a lost robot: new particles come in where the evidence gets worse than it used to
 /// be (augmented Monte Carlo localization [Thrun05 8.3]), from poses anywhere in the drawing that
-/// fit the present scan (sensor resetting).
+/// fit the present scan (sensor resetting). For the filter alone: with registrations, challengers
+/// do that, who have to prove themselves first.
 struct RecoveryParams {
   double slow_way_m = 30.0;     ///< memory of the long-term evidence, in way driven, > 0
   double fast_way_m = 4.0;      ///< memory of the short-term evidence, > 0

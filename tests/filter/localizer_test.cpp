@@ -179,9 +179,8 @@ TEST(Localizer, FindsTheRobotByRegistrationsWhereItStartedWrongTheSameAtAnyNumbe
   std::vector<StepReport> first;
   for (const int jobs : {1, 4}) {
     LocalizerParams params = small_params();
-    params.beams.exponent = 1e-6;  // the particles alone never come back
-    params.recovery.base_share = 0.0;
-    params.recovery.max_share = 0.0;
+    params.beams.exponent = 1e-6;           // the particles alone never come back
+    params.localized.start_log_odds = 0.0;  // nobody swears by the start
     params.jobs = jobs;
     KnowsItNearby predictor(drive);
     Localizer localizer(sketch, params, &predictor);
