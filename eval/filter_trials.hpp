@@ -56,8 +56,8 @@ void check_start(const std::string& set, const FilterData& data);
 /// The error in a drawing of another building, m and rad: nowhere is right.
 inline constexpr double kNowhereM = 1e6;
 
-/// Finds the robot of a set by a method, from the start that the set has. What the method switches
-/// on or off replaces what `params` say. Throws std::runtime_error where the set has no start.
+/// Finds the robot of a set by a method, from the start that the set has. What the method goes
+/// without is switched off. Throws std::runtime_error where the set has no start.
 FilterTrial run_filter_trial(const FilterTask& task, const FilterData& data,
                              const LocalizationMethod& method, const LocalizationParams& params,
                              std::uint64_t seed, WarpPredictor* predictor);

@@ -25,6 +25,7 @@ smooth() { # NAME GRAPH OPTIONS...
 for graph in manhattan3500.g2o city10000.g2o.gz intel.g2o ring.g2o; do
   for start in given odometry; do
     smooth "${graph%%.*}-$start" "$graph" --start "$start"
+    smooth "${graph%%.*}-$start-begun-there" "$graph" --start "$start" --optimise.initial given
   done
 done
 
