@@ -12,7 +12,7 @@ enum class KernelShape {
   Huber,      ///< grows linearly in the error from the width on
   Cauchy,     ///< grows logarithmically
   Dcs,        ///< dynamic covariance scaling [Agarwal13]: bounded
-  Graduated,  ///< truncated at the width, reached from the convex problem [Yang20]
+  Graduated,  ///< truncated at the width, reached over smoother problems [Yang20]
 };
 std::span<const std::pair<std::string_view, KernelShape>> names_of(KernelShape);
 

@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <utility>
 
 #include "motion/check.hpp"
-#include "motion/graph/detail/descent.hpp"
+#include "motion/graph/detail/graduation.hpp"
+#include "motion/graph/detail/thinned_descent.hpp"
 #include "motion/graph/linear_start.hpp"
+#include "motion/graph/robust_start.hpp"
 #include "motion/validate.hpp"
 
 namespace sketchloc {
@@ -15,90 +18,101 @@ namespace {
 using detail::Descent;
 using detail::EdgeWeighting;
 using detail::NormalEquations;
+using detail::ThinnedDescent;
+using detail::TruncatedOptimum;
 using Status = OptimiseResult::Status;
+
+/// Witnesses that an edge which may be wrong needs to count at a start. Many let little through
+/// that is wrong; where places are seldom seen again few edges have more than one. None needed is
+/// the start for graphs with a few wrong edges; of more than kMostUnwitnessed edges the wrong ones
+/// could fill the matrix.
+constexpr std::array kWitnesses = {4, 2, 1, 0};
+constexpr std::ptrdiff_t kMostUnwitnessed = 1000;
 
 double sum(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
 
-/// The weights of truncated least squares at a stage of graduation: [Yang20 eq. 14], where mu goes
-/// from 0 (convex) to infinity (truncated).
-std::vector<double> graduated_weights(const PoseGraph& graph, const std::vector<double>& chi2,
-                                      double width, double mu) {
-  std::vector<double> weights(chi2.size(), 1.0);
-  const double bound = width * width;
-  for (std::size_t i = 0; i < chi2.size(); ++i) {
-    if (!graph.edges[i].may_be_wrong || chi2[i] <= mu / (mu + 1.0) * bound) {
-      continue;
-    }
-    weights[i] = chi2[i] >= (mu + 1.0) / mu * bound
-                     ? 0.0
-                     : width / std::sqrt(chi2[i]) * std::sqrt(mu * (mu + 1.0)) - mu;
-  }
-  return weights;
+std::ptrdiff_t doubted_edges(const PoseGraph& graph) {
+  return std::ranges::count(graph.edges, true, &GraphEdge::may_be_wrong);
 }
 
-/// The largest error of an edge that may be wrong.
-double worst_chi2(const PoseGraph& graph, const std::vector<double>& chi2) {
-  double worst = 0.0;
-  for (std::size_t i = 0; i < chi2.size(); ++i) {
-    worst = graph.edges[i].may_be_wrong ? std::max(worst, chi2[i]) : worst;
-  }
-  return worst;
-}
-
-bool is_binary(const std::vector<double>& weights) {
-  return std::ranges::all_of(weights, [](double w) { return w < 1e-3 || w > 1.0 - 1e-3; });
-}
-
-/// Least squares with fewer and fewer of the edges that disagree [Yang20].
-Status graduate(const PoseGraph& graph, NormalEquations& equations, Descent& descent,
-                const OptimiseParams& params, std::vector<double>& weights) {
-  descent.run({}, params.most_iterations);
-  const double bound = params.kernel.width * params.kernel.width;
-  double mu = bound / (2.0 * worst_chi2(graph, equations.chi2_of_edges(descent.poses())) - bound);
-  if (!(mu > 0.0)) {
-    return Status::Converged;  // no edge is farther off than the width
-  }
-  Status status = Status::IterationLimit;
-  const int most = 10 * params.most_iterations;
-  while (descent.iterations() < most) {
-    weights =
-        graduated_weights(graph, equations.chi2_of_edges(descent.poses()), params.kernel.width, mu);
-    if (mu > 1.0 && is_binary(weights)) {
-      return descent.run({.given = weights}, params.most_iterations);
-    }
-    status = descent.run({.given = weights}, 1);
-    if (status == Status::Singular) {
-      return status;
-    }
-    mu *= params.graduation;
-  }
-  return status;
-}
-
-std::vector<double> kernel_weights(const PoseGraph& graph, const std::vector<double>& chi2,
-                                   const RobustKernel& kernel) {
-  std::vector<double> weights(chi2.size(), 1.0);
-  for (std::size_t i = 0; i < chi2.size(); ++i) {
-    if (graph.edges[i].may_be_wrong) {
-      weights[i] = robust_weight(kernel, chi2[i]);
-    }
-  }
-  return weights;
+/// Whether the kernel has an edge to act on.
+bool has_doubts(const PoseGraph& graph, const OptimiseParams& params) {
+  return params.kernel.shape != KernelShape::None && doubted_edges(graph) > 0;
 }
 
 std::vector<GraphPose> start_poses(const PoseGraph& graph, const NormalEquations& equations,
-                                   const OptimiseParams& params) {
+                                   GraphStart initial) {
   std::vector<GraphPose> given = detail::poses_of(graph);
-  if (params.initial == GraphStart::Given) {
+  if (initial == GraphStart::Given) {
     return given;
   }
   std::vector<GraphPose> linear = linear_start(graph);
-  const EdgeWeighting weighting{.kernel = params.kernel};
-  const bool is_better = params.initial == GraphStart::Linear ||
-                         equations.cost(linear, weighting) < equations.cost(given, weighting);
+  const bool is_better =
+      initial == GraphStart::Linear || equations.cost(linear, {}) < equations.cost(given, {});
   return is_better ? linear : given;
+}
+
+void move(const PoseGraph& graph, NormalEquations& equations, const OptimiseParams& params,
+          OptimiseResult& result) {
+  Descent descent(equations, start_poses(graph, equations, params.initial), params);
+  result.status = descent.run({}, params.most_iterations);
+  result.poses = descent.poses();
+  result.iterations = descent.iterations();
+}
+
+/// From several starts, the best end: a single wrong edge that is taken for right at the start can
+/// turn half of a graph, and what that costs shows in the end only. Where no edge is taken for
+/// wrong there is nothing to gain.
+TruncatedOptimum best_truncated_optimum(const PoseGraph& graph, const OptimiseParams& params) {
+  TruncatedOptimum best;
+  int iterations = 0;
+  const auto try_from = [&](std::vector<GraphPose> start) {
+    TruncatedOptimum next = detail::truncated_optimum(graph, std::move(start), params);
+    iterations += next.iterations;
+    if (best.poses.empty() || next.cost < best.cost) {
+      best = std::move(next);
+    }
+  };
+  const auto is_done = [&best] { return !best.poses.empty() && !best.rejects; };
+  for (const int witnesses : kWitnesses) {
+    const bool is_affordable = witnesses > 0 || doubted_edges(graph) <= kMostUnwitnessed;
+    if (params.initial != GraphStart::Given && is_affordable && !is_done()) {
+      try_from(robust_start(graph, params.kernel.width, witnesses));
+    }
+  }
+  if (params.initial != GraphStart::Linear && !is_done()) {
+    try_from(detail::poses_of(graph));
+  }
+  best.iterations = iterations;
+  return best;
+}
+
+/// Kernels that are not truncated begin at the truncated optimum, unless the poses given are
+/// better.
+void move_robustly(const PoseGraph& graph, const NormalEquations& costs,
+                   const OptimiseParams& params, OptimiseResult& result) {
+  TruncatedOptimum truncated;
+  const bool is_truncated = params.kernel.shape == KernelShape::Graduated;
+  if (is_truncated || params.initial != GraphStart::Given) {
+    truncated = best_truncated_optimum(graph, params);
+    result.iterations = truncated.iterations;
+  }
+  if (is_truncated) {
+    result.status = truncated.status;
+    result.poses = std::move(truncated.poses);
+    return;
+  }
+  const EdgeWeighting weighting{.kernel = params.kernel};
+  const bool is_better =
+      params.initial == GraphStart::Linear ||
+      (params.initial == GraphStart::Better &&
+       costs.cost(truncated.poses, weighting) < costs.cost(result.poses, weighting));
+  ThinnedDescent descent(graph, is_better ? std::move(truncated.poses) : result.poses, params);
+  result.status = descent.run(weighting, params.most_iterations);
+  result.poses = descent.poses();
+  result.iterations += descent.iterations();
 }
 
 }  // namespace
@@ -122,27 +136,22 @@ void validate(const OptimiseParams& params) {
 OptimiseResult optimise(const PoseGraph& graph, const OptimiseParams& params) {
   validate(graph);
   validate(params);
-  NormalEquations equations(graph, detail::held_vertices(graph));
+  const std::vector<bool> held = detail::held_vertices(graph);
+  const bool is_robust = has_doubts(graph, params);
+  // Behind a kernel they only tell costs.
+  NormalEquations equations(graph, is_robust ? std::vector<bool>(held.size(), true) : held);
   OptimiseResult result;
   result.status = Status::Converged;
   result.poses = detail::poses_of(graph);
-  result.start_chi2 = result.chi2 = result.cost = sum(equations.chi2_of_edges(result.poses));
-  result.weights.assign(graph.edges.size(), 1.0);
-  if (equations.unknowns().size() == 0) {
-    return result;
+  result.start_chi2 = sum(equations.chi2_of_edges(result.poses));
+  if (std::ranges::count(held, false) > 0) {
+    is_robust ? move_robustly(graph, equations, params, result)
+              : move(graph, equations, params, result);
   }
-  Descent descent(equations, start_poses(graph, equations, params), params);
-  const bool is_graduated = params.kernel.shape == KernelShape::Graduated;
-  result.status = is_graduated ? graduate(graph, equations, descent, params, result.weights)
-                               : descent.run({.kernel = params.kernel}, params.most_iterations);
-  result.poses = descent.poses();
-  result.iterations = descent.iterations();
-  const std::vector<double> chi2_of_edges = equations.chi2_of_edges(result.poses);
-  result.chi2 = sum(chi2_of_edges);
-  result.cost = equations.cost(result.poses, {.kernel = params.kernel});
-  if (!is_graduated) {
-    result.weights = kernel_weights(graph, chi2_of_edges, params.kernel);
-  }
+  const EdgeWeighting weighting{.kernel = params.kernel};
+  result.chi2 = sum(equations.chi2_of_edges(result.poses));
+  result.cost = equations.cost(result.poses, weighting);
+  result.weights = equations.weights(result.poses, weighting);
   return result;
 }
 

@@ -13,7 +13,7 @@ namespace sketchloc {
 /// Where the optimization begins.
 enum class GraphStart {
   Given,   ///< at the vertices' poses
-  Linear,  ///< at linear_start(), whatever the poses are
+  Linear,  ///< at linear_start(), behind a kernel at robust_start(), whatever the poses are
   Better,  ///< at the one of these two that costs less
 };
 std::span<const std::pair<std::string_view, GraphStart>> names_of(GraphStart);
@@ -21,7 +21,7 @@ std::span<const std::pair<std::string_view, GraphStart>> names_of(GraphStart);
 struct OptimiseParams {
   RobustKernel kernel = {};
   GraphStart initial = GraphStart::Better;
-  int most_iterations = 100;     ///< linear systems that are factorised, > 0
+  int most_iterations = 100;     ///< linear systems that are factorised per problem, > 0
   double cost_tolerance = 1e-6;  ///< done where a step lowers the cost by less than this share, > 0
   double start_radius = 1e4;     ///< of the trust region, in standard deviations, > 0
   double graduation = 1.4;       ///< factor between the problems of the graduated kernel, > 1
@@ -54,7 +54,9 @@ struct OptimiseResult {
 };
 
 /// Moves the vertices to where the measurements agree best: least squares behind the kernel, by
-/// Powell's dogleg on the normal equations [Rosen12]. Vertices that are fixed stay; in a part of
+/// Powell's dogleg on the normal equations [Rosen12]. The graduated kernel solves a sequence of
+/// problems from several starts, given or robust, and keeps the best end; the others begin there
+/// (or at the poses given). Vertices that are fixed stay; in a part of
 /// the graph without one and without a prior the first (rigid) vertex stays. Headings are not
 /// wrapped. An empty graph is converged. Throws std::invalid_argument where validate() does.
 OptimiseResult optimise(const PoseGraph& graph, const OptimiseParams& params = {});

@@ -1,6 +1,8 @@
 #include "tests/support/graphs.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 namespace sketchloc::testing {
@@ -58,6 +60,36 @@ SimulatedGraph simulated_graph(std::size_t poses, double loop_chance, Rng& rng) 
   }
   graph.measured.vertices.front().is_fixed = true;
   return graph;
+}
+
+std::size_t doubted(const PoseGraph& graph) {
+  return static_cast<std::size_t>(std::ranges::count(graph.edges, true, &GraphEdge::may_be_wrong));
+}
+
+PoseGraph with_random_loops(PoseGraph graph, std::size_t count, Rng& rng) {
+  std::vector<GraphEdge> loops;
+  std::ranges::copy_if(graph.edges, std::back_inserter(loops), &GraphEdge::may_be_wrong);
+  const auto random = [&rng](std::size_t below) {
+    return static_cast<std::size_t>(uniform(0.0, static_cast<double>(below), rng));
+  };
+  while (count > 0) {
+    GraphEdge edge = loops[random(loops.size())];
+    edge.first = random(graph.vertices.size());
+    edge.second = random(graph.vertices.size());
+    if (edge.first != edge.second) {
+      graph.edges.push_back(edge);
+      --count;
+    }
+  }
+  return graph;
+}
+
+double worst_distance_m(const std::vector<GraphPose>& a, const std::vector<GraphPose>& b) {
+  double worst_m = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    worst_m = std::max(worst_m, std::hypot(a[i].x - b[i].x, a[i].y - b[i].y));
+  }
+  return worst_m;
 }
 
 }  // namespace sketchloc::testing

@@ -160,6 +160,11 @@ Eigen::VectorXcd Cholesky::solve(const Eigen::VectorXcd& right) const {
   return solution_of(*parts_->factor, right, CHOLMOD_COMPLEX, *&parts_->common);
 }
 
+Eigen::MatrixX2d Cholesky::solve(const Eigen::MatrixX2d& right) const {
+  check(parts_->is_solvable && right.rows() == parts_->pattern.size(), "a system with a factor");
+  return solution_of(*parts_->factor, right, CHOLMOD_REAL, *&parts_->common);
+}
+
 Eigen::MatrixXd Cholesky::solve_columns(const Eigen::MatrixXd& right) const {
   check(parts_->is_solvable && right.rows() == parts_->pattern.size(), "a system with a factor");
   return solution_of(*parts_->factor, right, CHOLMOD_REAL, *&parts_->common);

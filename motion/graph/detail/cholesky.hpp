@@ -36,6 +36,7 @@ class Cholesky {
   Eigen::VectorXd solve(const Eigen::VectorXd& right) const;
   Eigen::VectorXcd solve(const Eigen::VectorXcd& right) const;
   Eigen::MatrixXd solve_columns(const Eigen::MatrixXd& right) const;
+  Eigen::MatrixX2d solve(const Eigen::MatrixX2d& right) const;
 
  private:
   struct Parts;

@@ -19,6 +19,7 @@ class Descent {
 
   const std::vector<GraphPose>& poses() const { return poses_; }
   double cost() const { return cost_; }
+  double radius() const { return radius_; }  ///< of the trust region
   int iterations() const { return iterations_; }
 
  private:

@@ -30,10 +30,10 @@ std::vector<GraphPose> poses_of(const PoseGraph& graph) {
 }
 
 NormalEquations::NormalEquations(const PoseGraph& graph, const std::vector<bool>& held,
-                                 const DensePrior* prior)
+                                 const DensePrior* prior, const std::vector<bool>& joins)
     : graph_(&graph),
       prior_(prior),
-      unknowns_(graph, held, prior, block_sizes(graph)),
+      unknowns_(graph, held, prior, block_sizes(graph), joins),
       turned_(graph.vertices.size()),
       values_(unknowns_.pattern().rows.size()),
       gradient_(unknowns_.size()) {
@@ -42,7 +42,8 @@ NormalEquations::NormalEquations(const PoseGraph& graph, const std::vector<bool>
   });
   information_.reserve(graph.edges.size());
   slots_.reserve(graph.edges.size());
-  for (const GraphEdge& edge : graph.edges) {
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const GraphEdge& edge = graph.edges[i];
     information_.push_back(turned_information(edge));
     EdgeSlots slots;
     const bool first_moves = unknowns_.moves(edge.first);
@@ -53,7 +54,7 @@ NormalEquations::NormalEquations(const PoseGraph& graph, const std::vector<bool>
     if (second_moves) {
       slots.second = unknowns_.slot(edge.second, edge.second);
     }
-    if (first_moves && second_moves) {
+    if (first_moves && second_moves && (joins.empty() || joins[i])) {
       slots.both = unknowns_.slot(edge.first, edge.second);
       slots.first_is_column = unknowns_.offset(edge.first) < unknowns_.offset(edge.second);
     }
@@ -93,6 +94,15 @@ std::vector<double> NormalEquations::chi2_of_edges(std::span<const GraphPose> po
     chi2.push_back(error.dot(information_[i] * error));
   }
   return chi2;
+}
+
+std::vector<double> NormalEquations::weights(std::span<const GraphPose> poses,
+                                             const EdgeWeighting& weighting) const {
+  std::vector<double> weights = chi2_of_edges(poses);
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    weights[i] = weight(i, weights[i], weighting);
+  }
+  return weights;
 }
 
 double NormalEquations::cost(std::span<const GraphPose> poses,

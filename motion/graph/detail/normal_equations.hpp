@@ -20,15 +20,19 @@ struct EdgeWeighting {
 /// second-order model in the vector of unknowns: cost + 2 gradient^T step + step^T H step.
 class NormalEquations {
  public:
-  /// The graph and the prior must outlive it.
+  /// The graph and the prior must outlive it. `joins`: edges whose vertices share a block of H, the
+  /// others count in the gradient and on the diagonal; empty: all.
   NormalEquations(const PoseGraph& graph, const std::vector<bool>& held,
-                  const DensePrior* prior = nullptr);
+                  const DensePrior* prior = nullptr, const std::vector<bool>& joins = {});
 
   const Unknowns& unknowns() const { return unknowns_; }
 
   double cost(std::span<const GraphPose> poses, const EdgeWeighting& weighting) const;
   /// Without kernels, per edge.
   std::vector<double> chi2_of_edges(std::span<const GraphPose> poses) const;
+  /// What each edge counts.
+  std::vector<double> weights(std::span<const GraphPose> poses,
+                              const EdgeWeighting& weighting) const;
 
   /// Fills H and the gradient. Edges that are doubted count with the kernel's slope.
   void linearise(std::span<const GraphPose> poses, const EdgeWeighting& weighting);

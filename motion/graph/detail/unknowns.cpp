@@ -32,7 +32,7 @@ class Parts {
 
 /// Every pair of moving vertices that an edge or the prior joins.
 std::vector<BlockPair> joined_pairs(const PoseGraph& graph, const std::vector<bool>& held,
-                                    const DensePrior* prior) {
+                                    const DensePrior* prior, const std::vector<bool>& joins) {
   std::vector<BlockPair> pairs;
   pairs.reserve(graph.edges.size());
   const auto add = [&](std::size_t a, std::size_t b) {
@@ -40,8 +40,10 @@ std::vector<BlockPair> joined_pairs(const PoseGraph& graph, const std::vector<bo
       pairs.emplace_back(a, b);
     }
   };
-  for (const GraphEdge& edge : graph.edges) {
-    add(edge.first, edge.second);
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    if (joins.empty() || joins[i]) {
+      add(graph.edges[i].first, graph.edges[i].second);
+    }
   }
   for (std::size_t i = 0; prior != nullptr && i < prior->vertices.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -122,7 +124,7 @@ std::vector<int> block_sizes(const PoseGraph& graph) {
 }
 
 Unknowns::Unknowns(const PoseGraph& graph, const std::vector<bool>& held, const DensePrior* prior,
-                   std::vector<int> sizes)
+                   std::vector<int> sizes, const std::vector<bool>& joins)
     : offsets_(graph.vertices.size(), -1), sizes_(std::move(sizes)) {
   std::vector<std::size_t> moving;
   std::vector<int> positions(graph.vertices.size(), -1);
@@ -132,7 +134,7 @@ Unknowns::Unknowns(const PoseGraph& graph, const std::vector<bool>& held, const 
       moving.push_back(i);
     }
   }
-  const std::vector<BlockPair> pairs = joined_pairs(graph, held, prior);
+  const std::vector<BlockPair> pairs = joined_pairs(graph, held, prior, joins);
   const std::vector<int> order = elimination_order(block_pattern(pairs, positions, moving.size()));
   std::vector<std::size_t> ordered;
   ordered.reserve(order.size());

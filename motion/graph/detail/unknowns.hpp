@@ -33,9 +33,10 @@ std::vector<bool> held_vertices(const PoseGraph& graph, const DensePrior* prior 
 /// and the pattern of the matrix of the normal equations.
 class Unknowns {
  public:
-  /// `sizes`: numbers per vertex, such as block_sizes(graph).
+  /// `sizes`: numbers per vertex, such as block_sizes(graph). `joins`: which edges share a block
+  /// between their vertices; empty: all.
   Unknowns(const PoseGraph& graph, const std::vector<bool>& held, const DensePrior* prior,
-           std::vector<int> sizes);
+           std::vector<int> sizes, const std::vector<bool>& joins = {});
 
   int size() const { return pattern_.size(); }
   const LowerPattern& pattern() const { return pattern_; }
