@@ -36,13 +36,8 @@ const std::map<std::string, GraphPoses>& start_names() {
 }
 
 const std::map<std::string, KernelShape>& kernel_names() {
-  static const std::map<std::string, KernelShape> kNames = [] {
-    std::map<std::string, KernelShape> names;
-    for (const auto& [name, shape] : names_of(KernelShape{})) {
-      names.emplace(name, shape);
-    }
-    return names;
-  }();
+  static const auto kShapes = names_of(KernelShape{});
+  static const std::map<std::string, KernelShape> kNames(kShapes.begin(), kShapes.end());
   return kNames;
 }
 

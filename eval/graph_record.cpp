@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "motion/trajectory.hpp"
@@ -57,17 +59,16 @@ std::optional<double> position_rmse_m(const PoseGraph& estimate, const PoseGraph
 }
 
 std::string to_json(const GraphRecord& record) {
-  std::string kernel;
-  for (const auto& [name, shape] : names_of(record.params.kernel.shape)) {
-    kernel = shape == record.params.kernel.shape ? name : kernel;
-  }
+  const auto names = names_of(KernelShape{});
+  const auto kernel = std::ranges::find(names, record.params.kernel.shape,
+                                        &std::pair<std::string_view, KernelShape>::second);
   nlohmann::ordered_json json = {{"chi2", record.result.chi2},
                                  {"cost", record.result.cost},
                                  {"start_chi2", record.start_chi2},
                                  {"status", name_of(record.result.status)},
                                  {"iterations", record.result.iterations},
                                  {"seconds", record.seconds},
-                                 {"kernel", kernel},
+                                 {"kernel", kernel->first},
                                  {"vertices", record.before.vertices.size()},
                                  {"edges", record.before.edges.size()},
                                  {"doubted_edges", doubted_edges(record)},

@@ -36,12 +36,37 @@ for graph in manhattan3500.g2o city10000.g2o.gz; do
   done
 done
 
+# Wrong loop closures: the RMSE of positions behind each kernel, in the mean over seeds, and its ratio to that without wrong ones.
+wrong() { # NAME GRAPH REFERENCE KERNEL SEEDS OPTIONS...
+  local name=$1 graph=$2 reference=$3 kernel=$4 seeds=$5 share seed clean= mean row
+  shift 5
+  row=$(printf '%-24s %-10s %-30s' "$name" "$kernel" "$*")
+  for share in 0 0.1 0.3 0.5; do
+    mean=$(for seed in $seeds; do
+      "$sketchloc" smooth --graph "$graph" --out "$out/wrong" --force --start odometry --kernel "$kernel" \
+        --wrong-loops "$share" --seed "$seed" --reference "$reference" "$@" >/dev/null 2>&1
+      echo "$(figure wrong rmse_m)" "$(figure wrong seconds)"
+    done | awk '{sum += $1; if ($2 > most) most = $2} END {printf "%.3f m (%.1f s)", sum / NR, most}')
+    clean=${clean:-$mean}
+    row+=" | $share: $mean, ratio $(awk -v a="${mean%% *}" -v b="${clean%% *}" 'BEGIN {printf "%.2f", a / b}')"
+  done
+  echo "$row"
+}
+
 awk '{print "VERTEX_SE2", NR - 1, $0}' "$data/manhattan3500_truth.txt" >"$out/truth.g2o"
-for kernel in ${KERNELS:-huber cauchy dcs graduated}; do
-  for share in 0 0.1 0.2 0.3 0.4 0.5; do
-    for seed in ${SEEDS:-1 2 3 4 5}; do
-      smooth "wrong-$kernel-$share-$seed" manhattan3500.g2o --start odometry --kernel "$kernel" \
-        --wrong-loops "$share" --seed "$seed" --reference "$out/truth.g2o"
+manhattan() {
+  wrong manhattan3500 "$data/manhattan3500.g2o" "$out/truth.g2o" "$@"
+}
+manhattan none 1
+manhattan cauchy 1
+manhattan dcs "${SEEDS:-1 2 3}"
+manhattan graduated "${SEEDS:-1 2 3}"
+for run in W-1.1 W-2.1; do
+  warehouse=$(dirname "$data")/warehouse/$run
+  awk '!/^#/ {print "VERTEX_SE2", $1, $2, $3, 2 * atan2($7, $8)}' "$warehouse/gt.tum" >"$out/$run.g2o"
+  for graph in 1_manhattan 3_dense; do
+    for kernel in none cauchy dcs graduated; do
+      wrong "$run $graph" "$warehouse/graph_$graph.g2o" "$out/$run.g2o" "$kernel" "${SEEDS:-1 2 3}"
     done
   done
 done

@@ -47,6 +47,7 @@ struct FixedLagSmoother::State {
 FixedLagSmoother::FixedLagSmoother(const FixedLagParams& params)
     : state_(std::make_unique<State>()) {
   validate(params);
+  require_no_graduation(params.kernel);
   state_->params = params;
 }
 FixedLagSmoother::~FixedLagSmoother() = default;

@@ -26,6 +26,7 @@ void visit_fields(FixedLagParams& params, Visitor&& visit) {
 /// the whole graph.
 class FixedLagSmoother {
  public:
+  /// Throws std::invalid_argument for the graduated kernel, which needs the whole graph.
   explicit FixedLagSmoother(const FixedLagParams& params = {});
   ~FixedLagSmoother();
   FixedLagSmoother(FixedLagSmoother&& other) noexcept;

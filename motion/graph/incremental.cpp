@@ -78,6 +78,7 @@ struct IncrementalSmoother::State {
 IncrementalSmoother::IncrementalSmoother(const IncrementalParams& params)
     : state_(std::make_unique<State>()) {
   validate(params);
+  require_no_graduation(params.kernel);
   state_->params = params;
 }
 IncrementalSmoother::~IncrementalSmoother() = default;

@@ -36,6 +36,7 @@ void visit_fields(IncrementalParams& params, Visitor&& visit) {
 /// far poses lag behind the optimum; finish() ends at it.
 class IncrementalSmoother {
  public:
+  /// Throws std::invalid_argument for the graduated kernel, which needs the whole graph.
   explicit IncrementalSmoother(const IncrementalParams& params = {});
   ~IncrementalSmoother();
   IncrementalSmoother(IncrementalSmoother&& other) noexcept;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
 
 #include "motion/validate.hpp"
 
@@ -19,6 +20,13 @@ std::span<const std::pair<std::string_view, KernelShape>> names_of(KernelShape /
 }
 
 void validate(const RobustKernel& kernel) { require_above("width", kernel.width, 0.0); }
+
+void require_no_graduation(const RobustKernel& kernel) {
+  if (kernel.shape == KernelShape::Graduated) {
+    throw std::invalid_argument(
+        "kernel.shape: must be none, huber, cauchy or dcs for a graph that grows, is graduated");
+  }
+}
 
 double robust_cost(const RobustKernel& kernel, double chi2) {
   const double bound = kernel.width * kernel.width;

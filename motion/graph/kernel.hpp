@@ -23,6 +23,9 @@ struct RobustKernel {
   double width = 3.37;
 };
 void validate(const RobustKernel& kernel);
+/// Throws std::invalid_argument for the graduated one, which needs the whole graph: graphs that
+/// grow have none.
+void require_no_graduation(const RobustKernel& kernel);
 
 template <typename Visitor>
 void visit_fields(RobustKernel& kernel, Visitor&& visit) {

@@ -6,10 +6,10 @@
 namespace sketchloc::detail {
 namespace {
 
-constexpr double kNegligible = 0.01;  ///< weight below which an edge is left out of the matrix
-constexpr double kMissed = 0.1;       ///< from which the matrix needs one that was left out
-constexpr double kMostIdle = 0.02;    ///< of the matrix's edges may be negligible
-constexpr int kIterations = 5;        ///< before the weights are looked at again
+constexpr double kNegligible = 0.1;  ///< weight below which an edge is left out of the matrix
+constexpr double kMissed = 0.3;      ///< from which the matrix needs one that was left out
+constexpr double kMostIdle = 0.02;   ///< of the matrix's edges may be negligible
+constexpr int kIterations = 5;       ///< before the weights are looked at again
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "tests/support/graphs.hpp"
 #include "tests/support/matchers.hpp"
@@ -123,6 +124,11 @@ TEST(FixedLag, RefusesEdgesToWhatHasLeftAndKeepsWhatIsToStay) {
   EXPECT_TRUE(smoother.add(between_edge(0, 5, Se2::from_xy_yaw(5.0, 0.0, 0.0), information)));
   EXPECT_FALSE(smoother.add(between_edge(2, 5, Se2::from_xy_yaw(3.0, 0.0, 0.0), information)));
   EXPECT_NEAR(smoother.pose(2).x, 2.0, 1e-9);
+}
+
+TEST(FixedLag, RefusesTheGraduatedKernel) {
+  EXPECT_THROW(FixedLagSmoother({.kernel = {.shape = KernelShape::Graduated}}),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "motion/graph/detail/neighbourhood.hpp"
 #include "tests/support/graphs.hpp"
@@ -70,6 +71,11 @@ TEST(Neighbourhood, IsTheNearestVerticesWithAllTheirEdgesAndAFixedRim) {
   EXPECT_EQ(part.graph.edges.size(), 5U);  // 3-4, 4-5, 2-3, 3-5, 5-6
   EXPECT_FALSE(part.graph.vertices[2].is_fixed);
   EXPECT_TRUE(part.graph.vertices[3].is_fixed);
+}
+
+TEST(Incremental, RefusesTheGraduatedKernel) {
+  EXPECT_THROW(IncrementalSmoother({.kernel = {.shape = KernelShape::Graduated}}),
+               std::invalid_argument);
 }
 
 }  // namespace
