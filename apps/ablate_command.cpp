@@ -18,8 +18,9 @@ void add_ablate_command(CLI::App& program) {
   };
   option("--suite", options->suite,
          "registration: one submap, one prior, one pose; filter: whole simulated runs; robust: the "
-         "same with what may go wrong; real: the runs of --set alone")
-      ->check(CLI::IsMember({"registration", "filter", "robust", "real"}))
+         "same with what may go wrong; real: the runs of --set alone; topology: labelled runs of "
+         "--set TRAJECTORY.tum,LABELS.csv,REFERENCE.tum[,NAME]")
+      ->check(CLI::IsMember({"registration", "filter", "robust", "real", "topology"}))
       ->capture_default_str();
   option("--methods", options->methods,
          "Rows (default all). registration: ours, chen20, affine, icp, none (keep the prior); the "
@@ -48,6 +49,8 @@ void add_ablate_command(CLI::App& program) {
   command->callback([options] {
     if (options->suite == "registration") {
       run_registration_suite(*options);
+    } else if (options->suite == "topology") {
+      run_topology_suite(*options);
     } else {
       run_filter_suite(*options);
     }

@@ -17,20 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> split(const std::string& text, char at) {
-  std::vector<std::string> parts(1);
-  for (const char c : text) {
-    if (c == at) {
-      parts.emplace_back();
-    } else {
-      parts.back() += c;
-    }
-  }
-  return parts;
-}
-
 RecordedSet recorded_set(const std::string& text) {
-  const std::vector<std::string> parts = split(text, ',');
+  const std::vector<std::string> parts = split_text(text, ',');
   if (parts.size() < 3 || parts.size() > 5) {
     throw std::invalid_argument("--set " + text +
                                 ": give DRAWING,LOG,REFERENCE.csv[,NAME[,ALTERNATIVE.csv]]");
@@ -46,6 +34,18 @@ RecordedSet recorded_set(const std::string& text) {
 }
 
 }  // namespace
+
+std::vector<std::string> split_text(const std::string& text, char at) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == at) {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
 
 ConfigNode suite_config(const AblateParams& params) {
   return without(to_config(params),

@@ -16,6 +16,7 @@
 #include "eval/localization.hpp"
 #include "eval/predictors.hpp"
 #include "eval/registration_suite.hpp"
+#include "eval/topology_suite.hpp"
 
 namespace sketchloc {
 
@@ -37,6 +38,8 @@ struct AblateParams {
   RegistrationSuiteParams registration;
   FilterSuiteParams drives;
   LocalizationParams filter;  ///< its predictor is that of the registration suite too
+  TopologyParams topology;
+  TopologySuiteParams topology_suite;
 };
 
 template <typename Visitor>
@@ -44,6 +47,8 @@ void visit_fields(AblateParams& params, Visitor&& visit) {
   visit("registration", params.registration);
   visit("drives", params.drives);
   visit("filter", params.filter);
+  visit("topology", params.topology);
+  visit("topology_suite", params.topology_suite);
 }
 
 /// What people may set, and what run.yaml records: all but what the rows of the filter suites
@@ -81,7 +86,11 @@ bool can_run(RegistrationMethod method, const std::string& name,
 /// Everything that was given, for run.yaml.
 RunDescription description_of(const AblateOptions& options, const ConfigNode& parameters);
 
+/// The parts of a text between commas or the like.
+std::vector<std::string> split_text(const std::string& text, char at);
+
 /// The suites.
+void run_topology_suite(const AblateOptions& options);
 void run_registration_suite(const AblateOptions& options);
 void run_filter_suite(const AblateOptions& options);
 

@@ -11,6 +11,7 @@
 #include "apps/program.hpp"
 #include "apps/register_command.hpp"
 #include "apps/smooth_command.hpp"
+#include "apps/topology_command.hpp"
 #include "apps/track_command.hpp"
 #include "apps/train_command.hpp"
 
@@ -20,7 +21,7 @@ namespace sketchloc {
 
 inline constexpr auto kCommands = std::to_array<AddCommand>(
     {add_demo_command, add_localize_command, add_track_command, add_register_command,
-     add_smooth_command, add_ablate_command, add_evaluate_command, add_generate_command,
-     add_convert_command, add_train_command});
+     add_smooth_command, add_topology_command, add_ablate_command, add_evaluate_command,
+     add_generate_command, add_convert_command, add_train_command});
 
 }  // namespace sketchloc
