@@ -16,16 +16,17 @@ void add_ablate_command(CLI::App& program) {
   const auto option = [&](const std::string& flag, auto& value, const std::string& help) {
     return command->add_option(flag, value, help)->group(kAlgorithmGroup);
   };
-  option("--suite", options->suite,
-         "registration: one submap, one prior, one pose; filter: whole simulated runs; robust: the "
-         "same with what may go wrong; real: the runs of --set alone; topology: labelled runs of "
-         "--set TRAJECTORY.tum,LABELS.csv,REFERENCE.tum[,NAME]")
-      ->check(CLI::IsMember({"registration", "filter", "robust", "real", "topology"}))
+  option(
+      "--suite", options->suite,
+      "registration: one submap, one prior, one pose; filter: whole simulated runs; robust: the "
+      "same with what may go wrong; real: the runs of --set alone; topology: labelled runs of "
+      "--set TRAJECTORY.tum,LABELS.csv,REFERENCE.tum[,NAME]; planning: ways in simulated drawings")
+      ->check(CLI::IsMember({"registration", "filter", "robust", "real", "topology", "planning"}))
       ->capture_default_str();
   option("--methods", options->methods,
          "Rows (default all). registration: ours, chen20, affine, icp, none (keep the prior); the "
          "first is shown in pictures. Others: odometry; icp, affine, chen20, ours_chained (one "
-         "registration after the other); mcl, mcl+measure, mcl+propose, ours, ours+smooth")
+         "registration after the other); mcl, mcl+measure, mcl+propose, ours")
       ->delimiter(',');
   option("--network", options->networks, "Another network for a method")
       ->type_name("METHOD=FILE.onnx");
@@ -51,6 +52,8 @@ void add_ablate_command(CLI::App& program) {
       run_registration_suite(*options);
     } else if (options->suite == "topology") {
       run_topology_suite(*options);
+    } else if (options->suite == "planning") {
+      run_planning_suite(*options);
     } else {
       run_filter_suite(*options);
     }

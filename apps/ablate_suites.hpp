@@ -14,6 +14,7 @@
 #include "datasets/sketch.hpp"
 #include "eval/filter_suite.hpp"
 #include "eval/localization.hpp"
+#include "eval/planning_suite.hpp"
 #include "eval/predictors.hpp"
 #include "eval/registration_suite.hpp"
 #include "eval/topology_suite.hpp"
@@ -40,6 +41,8 @@ struct AblateParams {
   LocalizationParams filter;  ///< its predictor is that of the registration suite too
   TopologyParams topology;
   TopologySuiteParams topology_suite;
+  PlanParams planning;
+  PlanningSuiteParams planning_suite;
 };
 
 template <typename Visitor>
@@ -49,6 +52,8 @@ void visit_fields(AblateParams& params, Visitor&& visit) {
   visit("filter", params.filter);
   visit("topology", params.topology);
   visit("topology_suite", params.topology_suite);
+  visit("planning", params.planning);
+  visit("planning_suite", params.planning_suite);
 }
 
 /// What people may set, and what run.yaml records: all but what the rows of the filter suites
@@ -90,6 +95,7 @@ RunDescription description_of(const AblateOptions& options, const ConfigNode& pa
 std::vector<std::string> split_text(const std::string& text, char at);
 
 /// The suites.
+void run_planning_suite(const AblateOptions& options);
 void run_topology_suite(const AblateOptions& options);
 void run_registration_suite(const AblateOptions& options);
 void run_filter_suite(const AblateOptions& options);

@@ -18,20 +18,42 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// A trajectory with its labels, or a log with its true labels.
+LabelledRunFiles files_of(const std::vector<std::string>& parts) {
+  LabelledRunFiles files{.reference = parts[2]};
+  if (fs::path(parts[0]).extension() == ".tum") {
+    files.trajectory = parts[0];
+    files.labels = parts[1];
+  } else {
+    files.log = parts[0];
+    files.reference_labels = parts[1];
+  }
+  return files;
+}
+
 TopologySet topology_set(const std::string& text) {
   const std::vector<std::string> parts = split_text(text, ',');
   if (parts.size() < 3 || parts.size() > 4) {
-    throw std::invalid_argument("--set " + text +
-                                ": give TRAJECTORY.tum,LABELS.csv,REFERENCE.tum[,NAME]");
+    throw std::invalid_argument(
+        "--set " + text +
+        ": give TRAJECTORY.tum,LABELS.csv,REFERENCE.tum[,NAME], or a log instead "
+        "of the trajectory");
   }
-  LabelledRun run =
-      read_labelled_run({.trajectory = parts[0], .labels = parts[1], .reference = parts[2]});
+  const LabelledRunFiles files = files_of(parts);
+  LabelledRun run = read_labelled_run(files);
   const std::string name =
       parts.size() > 3 ? parts[3] : fs::path(parts[0]).parent_path().filename().string();
-  return {.name = name.empty() ? fs::path(parts[0]).stem().string() : name,
-          .odometry = std::move(run.odometry),
-          .labels = std::move(run.labels),
-          .reference = std::move(run.reference).value()};
+  TopologySet set{.name = name.empty() ? fs::path(parts[0]).stem().string() : name,
+                  .odometry = std::move(run.odometry),
+                  .labels = std::move(run.labels),
+                  .reference = std::move(run.reference).value()};
+  if (!files.log.empty()) {
+    set.log = TopologySet::Log{.scans = std::move(run.scans),
+                               .told = std::move(set.labels),
+                               .raw = std::move(run.raw_odom_from_robot)};
+    set.labels = std::move(run.reference_labels).value();
+  }
+  return set;
 }
 
 std::vector<TopologySet> topology_sets(const AblateOptions& options) {
@@ -46,7 +68,9 @@ std::vector<TopologySet> topology_sets(const AblateOptions& options) {
   std::vector<std::string> names;
   for (const std::string& text : options.sets) {
     sets.push_back(topology_set(text));
-    names.push_back(sets.back().name);
+    if (!sets.back().log) {  // logs of one name share a row
+      names.push_back(sets.back().name);
+    }
   }
   check_set_names(names);
   return sets;

@@ -6,10 +6,12 @@
 
 #include "apps/config.hpp"
 #include "datasets/io/atomic_file.hpp"
+#include "datasets/io/labels_io.hpp"
 #include "datasets/io/reference_io.hpp"
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/sketch_writer.hpp"
 #include "datasets/io/trajectory_io.hpp"
+#include "datasets/sim/place_labels.hpp"
 
 namespace sketchloc {
 namespace {
@@ -41,6 +43,9 @@ void write_data_set(const std::filesystem::path& folder, const DataSet& data_set
   write_jsonl(folder / "log.jsonl", data_set.run);
   write_reference(folder / "reference.csv", data_set.reference, sketch.height_px());
   write_tum(folder / "truth.tum", data_set.world_from_robot);
+  if (const FloorPlan& plan = data_set.building.plan; has_racks(plan)) {
+    write_labels(folder / "labels.csv", PlaceLabeller(plan).labels(data_set.world_from_robot));
+  }
   write_path_picture(folder / "picture.png", sketch, path_in_sketch);
   write_atomically(folder / "run.yaml", run_file_text(made_by));
 }

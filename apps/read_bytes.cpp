@@ -1,6 +1,7 @@
 #include "apps/read_bytes.hpp"
 
 #include <fstream>
+#include <stdexcept>
 
 namespace sketchloc {
 
@@ -16,6 +17,14 @@ std::optional<std::string> read_bytes(const std::filesystem::path& file) {
   std::string bytes(size, '\0');
   stream.read(bytes.data(), static_cast<std::streamsize>(size));
   return stream ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::optional<std::string> bytes = read_bytes(file);
+  if (!bytes) {
+    throw std::runtime_error(file.string() + ": cannot be read");
+  }
+  return *std::move(bytes);
 }
 
 }  // namespace sketchloc

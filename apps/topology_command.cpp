@@ -14,13 +14,15 @@
 #include <utility>
 #include <vector>
 
-#include "apps/labelled_run.hpp"
+#include "apps/localizer_options.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/program.hpp"
+#include "apps/read_options.hpp"
 #include "apps/run_file.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/g2o_io.hpp"
+#include "datasets/io/labels_io.hpp"
 #include "datasets/io/trajectory_io.hpp"
 #include "eval/topology_record.hpp"
 #include "topology/growing_run.hpp"
@@ -39,13 +41,50 @@ const std::map<std::string, TopologyStage>& stage_names() {
   return kNames;
 }
 
-TopologyRecord read_record(const TopologyOptions& options) {
-  LabelledRun run = read_labelled_run(
-      {.trajectory = options.trajectory, .labels = options.labels, .reference = options.reference});
+/// All that `topology` is tuned by.
+struct TopologyCommandParams {
+  TopologyParams topology;
+  PlaceClassifierParams classifier;  ///< of the kinds of places in a log
+};
+
+/// The fields of the topology stand at the top, as they did before there was a classifier.
+template <typename Visitor>
+void visit_fields(TopologyCommandParams& params, Visitor&& visit) {
+  visit_fields(params.topology, visit);
+  visit("classifier", params.classifier);
+}
+
+/// Odometry that was refined by scans drifts less than wheels do.
+TopologyCommandParams defaults_for(const LabelledRunFiles& files) {
+  TopologyCommandParams defaults;
+  if (!files.log.empty() && files.odometry == OdometrySource::Matched) {
+    defaults.topology = matched_topology_params();
+  }
+  return defaults;
+}
+
+void require_inputs(const LabelledRunFiles& files) {
+  if (files.log.empty() == files.trajectory.empty()) {
+    throw std::invalid_argument(
+        "give --trajectory and --labels, or --log: one of the two says where the robot was");
+  }
+  if (files.log.empty() && files.labels.empty()) {
+    throw std::invalid_argument(
+        "--labels is missing: a trajectory does not tell the kinds of places; --log does by its "
+        "scans");
+  }
+  if (!files.network.empty() && (files.log.empty() || !files.labels.empty())) {
+    throw std::invalid_argument(
+        "--network tells labels from the scans of a --log without --labels");
+  }
+}
+
+TopologyRecord record_of(LabelledRun run) {
   TopologyRecord record;
   record.odometry = std::move(run.odometry);
   record.labels = std::move(run.labels);
   record.reference = std::move(run.reference);
+  record.reference_labels = std::move(run.reference_labels);
   return record;
 }
 
@@ -86,34 +125,41 @@ void recover_growing(TopologyRecord& record, const std::vector<Se2>& odom_from_r
   told.online = at_times_of(record.odometry, online);
 }
 
-void recover_record(TopologyRecord& record, const TopologyParams& params,
-                    const TopologyOptions& options) {
-  std::vector<Se2> odom_from_robot;
-  for (const Stamped<Se2>& stamped : record.odometry) {
-    odom_from_robot.push_back(stamped.pose);
-  }
+void recover_record(TopologyRecord& record, const std::vector<Scan>& scans,
+                    const TopologyParams& params, const TopologyOptions& options) {
+  const std::vector<Se2> odom_from_robot = poses_of(record.odometry);
   const Clock::time_point begin = Clock::now();
   if (options.incremental) {
     recover_growing(record, odom_from_robot, params);
   } else {
-    record.run = recover_run(odom_from_robot, record.labels, params, options.stage);
+    record.run = recover_run(odom_from_robot, record.labels, params, options.stage, scans);
   }
   record.seconds = seconds_since(begin);
   record.recovered = at_times_of(record.odometry, record.run.manhattan_from_robot);
 }
 
-RunDescription description_of(const TopologyOptions& options, const TopologyParams& params) {
+RunDescription description_of(const TopologyOptions& options, const TopologyCommandParams& params) {
   RunDescription description{.command = "topology",
                              .seed = std::nullopt,
-                             .inputs = {{"trajectory", options.trajectory.string()},
-                                        {"labels", options.labels.string()},
-                                        {"stage", name_of(stage_names(), options.stage)}},
+                             .inputs = {{"stage", name_of(stage_names(), options.stage)}},
                              .parameters = to_config(params)};
+  const auto add = [&](const char* name, const std::filesystem::path& file) {
+    if (!file.empty()) {
+      description.inputs.emplace_back(name, file.string());
+    }
+  };
+  add("trajectory", options.files.trajectory);
+  add("log", options.files.log);
+  if (!options.files.log.empty()) {
+    description.inputs.emplace_back("odometry",
+                                    name_of(odometry_sources(), options.files.odometry));
+  }
+  add("labels", options.files.labels);
+  add("network", options.files.network);
+  add("reference", options.files.reference);
+  add("reference-labels", options.files.reference_labels);
   if (options.incremental) {
     description.inputs.emplace_back("incremental", "true");
-  }
-  if (!options.reference.empty()) {
-    description.inputs.emplace_back("reference", options.reference.string());
   }
   return description;
 }
@@ -134,6 +180,10 @@ std::string summary_text(const TopologyRecord& record) {
         before.unaligned.mean, after.unaligned.mean, before.first_pose.mean, after.first_pose.mean,
         before.se2.rmse, after.se2.rmse);
   }
+  if (record.reference_labels) {
+    text += fmt::format("kinds of places: {:.1f} % right\n",
+                        100.0 * label_confusion(record).accuracy());
+  }
   return text + fmt::format("{:.2f} s\n", record.seconds);
 }
 
@@ -148,16 +198,22 @@ void warn_of(const TopologyRecord& record) {
 }  // namespace
 
 void run_topology(const TopologyOptions& options) {
-  const auto params = parameters_from<TopologyParams>(options.parameters);
+  const auto params = parameters_from(options.parameters, defaults_for(options.files));
+  require_inputs(options.files);
   if (options.incremental && options.stage != TopologyStage::Feedback) {
     throw std::invalid_argument(
         "--incremental uses all there is: leave out --stage, or --incremental");
   }
   OutputFolder out(options.out, options.force);
-  TopologyRecord record = read_record(options);
-  recover_record(record, params, options);
+  LabelledRun run = read_labelled_run(options.files, params.classifier);
+  const std::vector<Scan> scans = std::move(run.scans);
+  TopologyRecord record = record_of(std::move(run));
+  recover_record(record, scans, params.topology, options);
   warn_of(record);
   write_tum(out / "trajectory.tum", record.recovered);
+  if (options.files.labels.empty()) {
+    write_labels(out / "labels.csv", record.labels);
+  }
   write_g2o(out / "graph.g2o", record.run.graph);
   write_atomically(out / "nodes.csv", nodes_csv(record));
   write_atomically(out / "pairs.csv", pairs_csv(record));
@@ -174,16 +230,31 @@ void add_topology_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "topology", "Recover a run in a building of right angles from the kinds of its places.");
   const auto options = std::make_shared<TopologyOptions>();
-  command->add_option("--trajectory", options->trajectory, "Odometry of the run, in metres")
-      ->required()
+  LabelledRunFiles& files = options->files;
+  command->add_option("--trajectory", files.trajectory, "Odometry of the run, in metres")
       ->type_name("UNOPT.tum")
       ->group(kAlgorithmGroup);
   command
-      ->add_option("--labels", options->labels,
+      ->add_option("--labels", files.labels,
                    "The kind of place of each pose: index,label_name with rackspace, corridor, "
                    "intersection or trisection")
-      ->required()
       ->type_name("LABELS.csv")
+      ->group(kAlgorithmGroup);
+  command
+      ->add_option("--log", files.log,
+                   "A whole log instead: odometry is refined by its scans, these tell kinds of "
+                   "places and close loops")
+      ->type_name("LOG")
+      ->group(kAlgorithmGroup);
+  add_read_options(*command, files.reading);
+  add_named_option(*command, "--odometry", files.odometry, odometry_sources(),
+                   "Of the log: matched (refined by its scans, the default) or raw")
+      ->group(kAlgorithmGroup);
+  command
+      ->add_option("--network", files.network,
+                   "That tells kinds of places from scans; default: the one that comes with the "
+                   "program")
+      ->type_name("ONNX")
       ->group(kAlgorithmGroup);
   add_named_option(*command, "--stage", options->stage, stage_names(),
                    "How much is used: unoptimised, snap, manhattan, loops, dense, feedback "
@@ -193,16 +264,22 @@ void add_topology_command(CLI::App& program) {
       ->add_flag("--incremental", options->incremental,
                  "Node by node, as if the robot were driving")
       ->group(kAlgorithmGroup);
-  add_parameter_options(*command, to_config(TopologyParams{}), options->parameters);
+  add_parameter_options(
+      *command, [options] { return to_config(defaults_for(options->files)); }, options->parameters);
   command
-      ->add_option("--reference", options->reference,
+      ->add_option("--reference", files.reference,
                    "Where the robot was, pose by pose: errors are taken")
       ->type_name("GT.tum")
       ->group(kOutputGroup);
   command
+      ->add_option("--reference-labels", files.reference_labels,
+                   "The true kinds of places, pose by pose: errors are counted")
+      ->type_name("LABELS.csv")
+      ->group(kOutputGroup);
+  command
       ->add_option("--out", options->out,
                    "Folder for trajectory.tum, graph.g2o, nodes.csv, pairs.csv, metrics.json, "
-                   "picture.png, report.html and run.yaml")
+                   "picture.png, report.html and run.yaml; of a log also labels.csv")
       ->required()
       ->type_name("DIR")
       ->group(kOutputGroup);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include "apps/labelled_run.hpp"
 #include "apps/parameter_options.hpp"
 #include "topology/recovered_run.hpp"
 
@@ -13,13 +14,11 @@ namespace sketchloc {
 
 /// What `sketchloc topology` is told.
 struct TopologyOptions {
-  std::filesystem::path trajectory;
-  std::filesystem::path labels;
+  LabelledRunFiles files;
   bool incremental = false;  ///< node by node, as if the robot were driving
   TopologyStage stage = TopologyStage::Feedback;
   ParameterOptions parameters;
 
-  std::filesystem::path reference;  ///< empty: none
   std::filesystem::path out;
   bool force = false;
 };

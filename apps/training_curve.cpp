@@ -5,13 +5,10 @@
 #include <cstdio>
 #include <sstream>
 #include <stdexcept>
-
-#include "motion/angles.hpp"
+#include <vector>
 
 namespace sketchloc {
 namespace {
-
-constexpr double kCmPerM = 100.0;
 
 template <typename T>
 T number_of(std::string_view text) {
@@ -45,12 +42,6 @@ void append(std::string& row, double value) {
   row += text;
 }
 
-void append(std::string& row, const ValidationSummary& summary, double per_unit) {
-  append(row, per_unit * summary.mean);
-  append(row, per_unit * summary.median);
-  append(row, per_unit * summary.p90);
-}
-
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
   while (true) {
@@ -80,14 +71,6 @@ std::vector<double> column_of(std::string_view csv, std::string_view name) {
   return values;
 }
 
-/// One panel of the picture: an error over the samples, from 0 to that of the priors.
-struct Panel {
-  const char* title;
-  const char* value;
-  const char* prior;
-  const char* unit;
-};
-
 constexpr double kPanelWidth = 420.0;
 constexpr double kPanelHeight = 260.0;
 constexpr double kMargin = 50.0;
@@ -97,10 +80,10 @@ std::string text_svg(double x, double y, const char* anchor, const std::string& 
          text + "</text>\n";
 }
 
-std::string panel_svg(const Panel& panel, std::string_view csv, double left) {
+std::string panel_svg(const CurvePanel& panel, std::string_view csv, double left) {
   const std::vector<double> samples = column_of(csv, "samples");
-  const std::vector<double> errors = column_of(csv, panel.value);
-  const double high = column_of(csv, panel.prior).back();
+  const std::vector<double> errors = column_of(csv, panel.column);
+  const double high = panel.top_column == nullptr ? 100.0 : column_of(csv, panel.top_column).back();
   const auto x = [&](double count) { return left + kPanelWidth * count / samples.back(); };
   const auto y = [&](double error) {
     return kMargin + kPanelHeight * (1.0 - std::clamp(error / high, 0.0, 1.0));
@@ -120,54 +103,50 @@ std::string panel_svg(const Panel& panel, std::string_view csv, double left) {
   }
   return svg + "<path d=\"" + line + "\" fill=\"none\" stroke=\"#0064be\" stroke-width=\"2\"/>\n" +
          text_svg(left, kMargin - 14.0, "start",
-                  std::string(panel.title) + ", " + panel.unit + " (top: the priors); last " +
+                  std::string(panel.title) + ", " + panel.unit +
+                      (panel.top_column == nullptr ? "" : " (top: the priors)") + "; last " +
                       tenths(errors.back()));
 }
 
 }  // namespace
 
-std::string curve_svg(std::string_view csv) {
+std::string curve_svg(std::string_view csv, std::span<const CurvePanel> panels) {
   if (lines_of(csv).size() < 3) {
     return {};
   }
-  constexpr Panel kPosition{"Median position error", "position_median_cm",
-                            "prior_position_median_cm", "cm"};
-  constexpr Panel kHeading{"Median heading error", "heading_median_deg", "prior_heading_median_deg",
-                           "deg"};
-  const double width = 2.0 * kPanelWidth + 4.0 * kMargin;
+  const auto count = static_cast<double>(panels.size());
+  const double width = count * (kPanelWidth + 2.0 * kMargin);
   const double height = kPanelHeight + 2.0 * kMargin;
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + tenths(width) + " " +
-         tenths(height) + "\" font-family=\"sans-serif\" font-size=\"13\">\n" +
-         "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" +
-         panel_svg(kPosition, csv, 1.2 * kMargin) +
-         panel_svg(kHeading, csv, kPanelWidth + 3.0 * kMargin) + "</svg>\n";
-}
-
-std::string curve_header() {
-  return "samples,seconds,loss,loss_grid,loss_pose,loss_spread,loss_inlier,"
-         "position_mean_cm,position_median_cm,position_p90_cm,"
-         "heading_mean_deg,heading_median_deg,heading_p90_deg,failures,"
-         "prior_position_median_cm,prior_heading_median_deg\n";
-}
-
-std::string curve_row(const CurvePoint& point) {
-  std::string row = std::to_string(point.samples);
-  append(row, point.seconds);
-  for (const double loss :
-       {point.loss.total, point.loss.grid, point.loss.pose, point.loss.spread, point.loss.inlier}) {
-    append(row, loss);
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + tenths(width) +
+                    " " + tenths(height) + "\" font-family=\"sans-serif\" font-size=\"13\">\n" +
+                    "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n";
+  double left = 1.2 * kMargin;
+  for (const CurvePanel& panel : panels) {
+    svg += panel_svg(panel, csv, left);
+    left += kPanelWidth + 1.8 * kMargin;
   }
-  const ValidationReport& validation = point.validation;
-  append(row, validation.position_m, kCmPerM);
-  append(row, validation.heading_rad, deg_from_rad(1.0));
-  row += "," + std::to_string(validation.failures);
-  append(row, kCmPerM * validation.prior_position_m.median);
-  append(row, deg_from_rad(validation.prior_heading_rad.median));
+  return svg + "</svg>\n";
+}
+
+std::string curve_header(std::span<const std::string_view> columns) {
+  std::string header = "samples,seconds";
+  for (const std::string_view column : columns) {
+    header.append(",").append(column);
+  }
+  return header + "\n";
+}
+
+std::string curve_row(std::uint64_t samples, double seconds, std::span<const double> columns) {
+  std::string row = std::to_string(samples);
+  append(row, seconds);
+  for (const double column : columns) {
+    append(row, column);
+  }
   return row + "\n";
 }
 
-std::string curve_until(std::string_view csv, std::uint64_t samples) {
-  std::string kept = curve_header();
+std::string curve_until(std::string_view csv, std::string_view header, std::uint64_t samples) {
+  std::string kept(header);
   const std::vector<std::string_view> lines = lines_of(csv);
   for (std::size_t i = 1; i < lines.size(); ++i) {
     if (number_of<std::uint64_t>(lines[i]) <= samples) {

@@ -1,33 +1,32 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
-
-#include "registration/train/trainer.hpp"
 
 namespace sketchloc {
 
-/// How far learning was after a number of samples.
-struct CurvePoint {
-  std::uint64_t samples = 0;
-  double seconds = 0.0;  ///< of learning so far, over all sittings
-  TrainingLoss loss;     ///< mean since the point before
-  ValidationReport validation;
+/// A learning curve as CSV: samples, seconds of learning over all sittings, then what a task
+/// measures, one row for each point.
+std::string curve_header(std::span<const std::string_view> columns);
+std::string curve_row(std::uint64_t samples, double seconds, std::span<const double> columns);
+
+/// The rows of an earlier CSV up to a number of samples, what a checkpoint made then has seen,
+/// behind the header. Throws std::runtime_error where a row has no number.
+std::string curve_until(std::string_view csv, std::string_view header, std::uint64_t samples);
+
+/// One panel of the picture: a column over the samples, from 0 to the last value of another
+/// column, or to 100.
+struct CurvePanel {
+  const char* title = "";
+  const char* column = "";
+  const char* top_column = nullptr;  ///< none: 100
+  const char* unit = "";
 };
 
-/// A curve as CSV, one row per point; errors in cm and deg.
-std::string curve_header();
-std::string curve_row(const CurvePoint& point);
-
-/// The rows of an earlier CSV up to a number of samples: what a checkpoint made then has seen. With
-/// the header; throws std::runtime_error where a row has no number.
-std::string curve_until(std::string_view csv, std::uint64_t samples);
-
-/// The curve as a picture: the bytes of an SVG file that shows median position and heading errors,
-/// relative to those of the priors, over the samples. Empty for fewer than two points.
-std::string curve_svg(std::string_view csv);
+/// The curve as a picture: the bytes of an SVG file. Empty for fewer than two points.
+std::string curve_svg(std::string_view csv, std::span<const CurvePanel> panels);
 
 /// The seconds in a curve's last row; 0 without one.
 double seconds_of_curve(std::string_view csv);

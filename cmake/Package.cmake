@@ -7,6 +7,6 @@ configure_package_config_file(cmake/sketchlocConfig.cmake.in sketchlocConfig.cma
 write_basic_package_version_file(sketchlocConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/sketchlocConfig.cmake
               ${PROJECT_BINARY_DIR}/sketchlocConfigVersion.cmake cmake/FindOpenCVModules.cmake
-              cmake/FindCHOLMOD.cmake
+              cmake/FindCHOLMOD.cmake cmake/FindOMPL.cmake
         DESTINATION ${package_dir})
 install(EXPORT sketchloc-targets NAMESPACE sketchloc:: DESTINATION ${package_dir})

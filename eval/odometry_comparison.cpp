@@ -53,14 +53,6 @@ MatchedRun match_scans(const Run& run) {
   return result;
 }
 
-std::vector<Se2> poses_of(const MetricTrajectory& trajectory) {
-  std::vector<Se2> poses;
-  for (const Stamped<Se2>& stamped : trajectory) {
-    poses.push_back(stamped.pose);
-  }
-  return poses;
-}
-
 /// Relations of one kind.
 struct RelationGroup {
   std::string name;

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <tuple>
@@ -84,6 +86,87 @@ std::vector<std::string> cells(const Row& row) {
           pairs_text(row)};
 }
 
+/// How well scans tell the kinds of places: one row for each name of sets. Each log counts once.
+struct LabelRow {
+  std::string set;
+  std::vector<ConfusionMatrix> logs = {};
+
+  int poses() const {
+    int sum = 0;
+    for (const ConfusionMatrix& log : logs) {
+      sum += log.count();
+    }
+    return sum;
+  }
+  ConfusionMatrix together() const {
+    ConfusionMatrix sum = logs.front();
+    for (std::size_t i = 1; i < logs.size(); ++i) {
+      for (std::size_t right = 0; right < sum.given_of_right.size(); ++right) {
+        std::ranges::transform(sum.given_of_right[right], logs[i].given_of_right[right],
+                               sum.given_of_right[right].begin(), std::plus<>());
+      }
+    }
+    return sum;
+  }
+  MeanOverSets accuracy() const {
+    std::vector<double> values;
+    for (const ConfusionMatrix& log : logs) {
+      values.push_back(log.accuracy());
+    }
+    MeanOverSets mean;
+    mean.mean = together().accuracy();
+    if (values.size() > 1) {
+      Rng rng = make_rng(1);
+      mean.interval = bootstrap_interval(values, {}, rng);
+    }
+    return mean;
+  }
+};
+
+std::vector<LabelRow> label_rows(std::span<const TopologyTrial> trials) {
+  std::vector<LabelRow> rows;
+  for (const TopologyTrial& trial : trials) {
+    if (!trial.labels || trial.row.starts_with("raw")) {
+      continue;  // the same labels again
+    }
+    auto row = std::ranges::find(rows, trial.set, &LabelRow::set);
+    if (row == rows.end()) {
+      row = rows.insert(rows.end(), {.set = trial.set});
+    }
+    row->logs.push_back(*trial.labels);
+  }
+  return rows;
+}
+
+std::vector<std::string> label_heads() {
+  std::vector<std::string> heads = {"runs", "n", "poses", "right %"};
+  for (const auto& [name, label] : names_of(PlaceLabel{})) {
+    heads.push_back(std::string(name) + ", recall / precision %");
+  }
+  return heads;
+}
+
+std::vector<std::string> cells(const LabelRow& row) {
+  std::vector<std::string> cells = {row.set, std::to_string(row.logs.size()),
+                                    std::to_string(row.poses()),
+                                    detail::with_interval(row.accuracy(), 100.0, 1)};
+  const ConfusionMatrix all = row.together();
+  for (const auto& [name, label] : names_of(PlaceLabel{})) {
+    const auto index = static_cast<std::size_t>(label);
+    cells.push_back(fixed(100.0 * all.recall(index), 1) + " / " +
+                    fixed(100.0 * all.precision(index), 1));
+  }
+  return cells;
+}
+
+std::vector<std::vector<std::string>> label_table(std::span<const TopologyTrial> trials) {
+  std::vector<std::vector<std::string>> table;
+  for (const LabelRow& row : label_rows(trials)) {
+    table.push_back(cells(row));
+  }
+  return table;
+}
+
 const std::vector<std::string> kHeads = {
     "part",          "row",        "wrong", "run", "n", "as it is, mean m", "first pose, mean m",
     "SE(2), RMSE m", "pairs right"};
@@ -122,9 +205,18 @@ std::string topology_suite_markdown(std::span<const TopologyTrial> trials) {
     }
     return text + "\n";
   };
-  std::string text = line(kHeads) + line(std::vector<std::string>(kHeads.size(), "---"));
+  const auto head = [&](const std::vector<std::string>& cells) {
+    return line(cells) + line(std::vector<std::string>(cells.size(), "---"));
+  };
+  std::string text = head(kHeads);
   for (const Row& row : rows_of(trials)) {
     text += line(cells(row));
+  }
+  if (const auto labels = label_table(trials); !labels.empty()) {
+    text += "\nKinds of places, told by scans:\n\n" + head(label_heads());
+    for (const std::vector<std::string>& row : labels) {
+      text += line(row);
+    }
   }
   return text;
 }
@@ -140,6 +232,9 @@ std::string topology_suite_html(std::span<const TopologyTrial> trials) {
        "recorded. incremental: as if the robot were driving. Published means over four runs "
        "[Topo20]: 11.57 unoptimised, 4.54 manhattan, 2.84 with loops, 2.08 dense, 1.82 feedback, "
        "1.45 incremental."},
+      {"log",
+       "Logs: odometry refined by its scans (matched) or as the wheels measured it (raw); alone, "
+       "with the true kinds of places, and with kinds of places and loop closures by scans."},
       {"odometry", "The odometry is made anew from the reference, by a model of wheels."},
       {"wrong pairs",
        "Nodes of one label far apart are tied together as if they were one place, until they are "
@@ -151,6 +246,10 @@ std::string topology_suite_html(std::span<const TopologyTrial> trials) {
       body += detail::section(part,
                               "<p>" + text + "</p>" + detail::results_table(kHeads, found->second));
     }
+  }
+  if (const auto labels = label_table(trials); !labels.empty()) {
+    body += detail::section("kinds of places", "<p>Told by scans, against the true ones.</p>" +
+                                                   detail::results_table(label_heads(), labels));
   }
   return detail::open_page("Topology") + "<header><h1>Topology</h1><p class=\"note\">Distances " +
          "from the reference; in brackets 95&#160;% intervals over seeds.</p></header><main>" +

@@ -33,15 +33,29 @@ std::string csv_line(std::initializer_list<double> values) {
   return line;
 }
 
-std::vector<Se2> poses_of(const MetricTrajectory& trajectory) {
-  std::vector<Se2> poses;
-  for (const Stamped<Se2>& stamped : trajectory) {
-    poses.push_back(stamped.pose);
+Json to_json(const ConfusionMatrix& confusion) {
+  Json recall;
+  Json precision;
+  for (const auto& [name, label] : names_of(PlaceLabel{})) {
+    recall[name] = confusion.recall(static_cast<std::size_t>(label));
+    precision[name] = confusion.precision(static_cast<std::size_t>(label));
   }
-  return poses;
+  return {{"accuracy", confusion.accuracy()},
+          {"recall", recall},
+          {"precision", precision},
+          {"used_of_true", confusion.given_of_right}};
 }
 
 }  // namespace
+
+ConfusionMatrix label_confusion(const TopologyRecord& record) {
+  ConfusionMatrix confusion(names_of(PlaceLabel{}).size());
+  for (std::size_t i = 0; i < record.labels.size(); ++i) {
+    confusion.add(static_cast<std::size_t>(record.reference_labels->at(i)),
+                  static_cast<std::size_t>(record.labels[i]));
+  }
+  return confusion;
+}
 
 std::string to_json(const TopologyRecord& record) {
   const RecoveredRun& run = record.run;
@@ -51,6 +65,7 @@ std::string to_json(const TopologyRecord& record) {
       {"straight_pieces", run.evidence.pieces.size()},
       {"nodes", run.nodes.size()},
       {"same_place_pairs", run.pairs.size()},
+      {"closed_by_scans", run.closures},
       {"rounds", run.rounds},
       {"chi2", run.result.chi2},
       {"seconds", record.seconds}};
@@ -66,6 +81,9 @@ std::string to_json(const TopologyRecord& record) {
     }
     const PairCounts pairs = count_pairs(run, poses_of(*record.reference));
     json["same_place"] = {{"used", pairs.used}, {"right", pairs.right}, {"all", pairs.all}};
+  }
+  if (record.reference_labels) {
+    json["labels"] = to_json(label_confusion(record));
   }
   return json.dump(2) + "\n";
 }

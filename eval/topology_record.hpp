@@ -8,6 +8,7 @@
 #include "eval/summary.hpp"
 #include "eval/trajectory_errors.hpp"
 #include "motion/trajectory.hpp"
+#include "topology/confusion_matrix.hpp"
 #include "topology/recovered_run.hpp"
 
 namespace sketchloc {
@@ -38,7 +39,8 @@ struct TopologyRecord {
   std::vector<PlaceLabel> labels = {};
   RecoveredRun run = {};
   MetricTrajectory recovered = {};
-  std::optional<MetricTrajectory> reference = {};  ///< as long as the odometry
+  std::optional<MetricTrajectory> reference = {};                ///< as long as the odometry
+  std::optional<std::vector<PlaceLabel>> reference_labels = {};  ///< the true ones, as many
   /// How the run was recovered while it grew; none: at once.
   struct Growing {
     MetricTrajectory online = {};  ///< where the robot was thought to be when it was there
@@ -48,6 +50,9 @@ struct TopologyRecord {
   std::optional<Growing> growing = {};
   double seconds = 0.0;  ///< wall clock, without reading and writing
 };
+
+/// How often which PlaceLabel was used where which one is true. There are reference labels.
+ConfusionMatrix label_confusion(const TopologyRecord& record);
 
 /// `metrics.json`, see docs/formats.md.
 std::string to_json(const TopologyRecord& record);

@@ -16,16 +16,12 @@ constexpr const char* kWrongPairs = "wrong pairs";
 constexpr const char* kWrongLabels = "wrong labels";
 constexpr const char* kOdometry = "odometry";
 constexpr const char* kIncremental = "incremental";
+constexpr std::string_view kSiamese = "siamese ";
+constexpr const char* kLog = "log";
+constexpr std::array kLogRows = {"matched odometry", "matched, true labels", "matched, by scans",
+                                 "raw odometry",     "raw, true labels",     "raw, by scans"};
 /// Wrong labels come in runs, as those of a classifier do.
 constexpr std::size_t kWrongRun = 8;
-
-std::vector<Se2> poses_of(const MetricTrajectory& trajectory) {
-  std::vector<Se2> poses;
-  for (const Stamped<Se2>& stamped : trajectory) {
-    poses.push_back(stamped.pose);
-  }
-  return poses;
-}
 
 std::size_t random_index(std::size_t count, Rng& rng) {
   return static_cast<std::size_t>(uniform(0.0, static_cast<double>(count), rng));
@@ -126,8 +122,33 @@ std::vector<Se2> simulated_odometry(const std::vector<Se2>& reference, Rng& rng)
   return odometry;
 }
 
+/// What scans bring to the recovery of a log: labels and closures; or true labels alone.
+RecoveredRun recovered_log(const std::string& row, const TopologySet& set,
+                           const TopologyParams& params) {
+  const bool raw = row.starts_with("raw");
+  const bool by_scans = row.ends_with("by scans");
+  const bool optimised = by_scans || row.ends_with("true labels");
+  return recover_run(raw ? set.log->raw : poses_of(set.odometry),
+                     by_scans ? set.log->told : set.labels,
+                     raw ? params : matched_topology_params(),
+                     optimised ? TopologyStage::Feedback : TopologyStage::Unoptimised,
+                     by_scans ? std::span<const Scan>(set.log->scans) : std::span<const Scan>());
+}
+
+ConfusionMatrix told_of_true(const TopologySet& set) {
+  ConfusionMatrix confusion(names_of(PlaceLabel{}).size());
+  for (std::size_t i = 0; i < set.labels.size(); ++i) {
+    confusion.add(static_cast<std::size_t>(set.labels[i]),
+                  static_cast<std::size_t>(set.log->told[i]));
+  }
+  return confusion;
+}
+
 RecoveredRun recovered_by(const TopologyTask& task, const TopologySet& set, TopologyParams params,
                           Rng& rng) {
+  if (task.part == kLog) {
+    return recovered_log(task.row, set, params);
+  }
   const std::vector<Se2> poses = poses_of(set.odometry);
   if (task.part == kWrongLabels) {
     return recover_run(poses, with_wrong_labels(set.labels, task.level, rng), params);
@@ -141,8 +162,14 @@ RecoveredRun recovered_by(const TopologyTask& task, const TopologySet& set, Topo
     return recover_run(simulated_odometry(poses_of(set.reference), rng), set.labels, params,
                        stage_of(task.row));
   }
-  return task.row == kIncremental ? recover_growing(poses, set.labels, params)
-                                  : recover_run(poses, set.labels, params, stage_of(task.row));
+  if (task.row == kIncremental) {
+    return recover_growing(poses, set.labels, params);
+  }
+  if (task.row.starts_with(kSiamese)) {
+    params.same_place.comparison = PlaceComparison::Siamese;
+    return recover_run(poses, set.labels, params, stage_of(task.row.substr(kSiamese.size())));
+  }
+  return recover_run(poses, set.labels, params, stage_of(task.row));
 }
 
 void add_seeds(std::vector<TopologyTask>& tasks, TopologyTask task, int seeds) {
@@ -165,10 +192,19 @@ std::vector<TopologyTask> topology_tasks(std::span<const TopologySet> sets,
   constexpr std::array kLevels = {0.0, 0.2, 0.6, 1.0};  // of the most that is wrong
   std::vector<TopologyTask> tasks;
   for (std::size_t set = 0; set < sets.size(); ++set) {
+    if (sets[set].log) {
+      for (const char* row : kLogRows) {
+        tasks.push_back({.part = kLog, .row = row, .set = set});
+      }
+      continue;
+    }
     for (const auto& [name, stage] : names_of(TopologyStage{})) {
       tasks.push_back({.part = kStages, .row = std::string(name), .set = set});
     }
     tasks.push_back({.part = kStages, .row = kIncremental, .set = set});
+    for (const char* stage : {"loops", "dense", "feedback"}) {
+      tasks.push_back({.part = kStages, .row = std::string(kSiamese) + stage, .set = set});
+    }
     for (const char* kernel : {"none", "huber", "cauchy", "dcs", "graduated"}) {
       for (const double level : kLevels) {
         add_seeds(tasks,
@@ -203,13 +239,15 @@ TopologyTrial run_task(const TopologyTask& task, std::span<const TopologySet> se
   for (std::size_t i = 0; i < run.manhattan_from_robot.size(); ++i) {
     recovered.append(set.reference[i].time_s, run.manhattan_from_robot[i]);
   }
+  const bool told = task.part == kLog && task.row.ends_with("by scans");
   return {.part = task.part,
           .row = task.row,
           .level = task.level,
           .set = set.name,
           .seed = task.seed,
           .errors = metric_errors(set.reference, recovered),
-          .pairs = count_pairs(run, poses_of(set.reference))};
+          .pairs = count_pairs(run, poses_of(set.reference)),
+          .labels = told ? std::optional(told_of_true(set)) : std::nullopt};
 }
 
 }  // namespace sketchloc

@@ -12,10 +12,17 @@ namespace sketchloc {
 
 /// A run with a reference, as long as the odometry.
 struct TopologySet {
-  std::string name;
-  MetricTrajectory odometry = {};
-  std::vector<PlaceLabel> labels = {};
+  std::string name;                     ///< runs of one name share a row
+  MetricTrajectory odometry = {};       ///< of a log: refined by its scans
+  std::vector<PlaceLabel> labels = {};  ///< of a log: the true ones
   MetricTrajectory reference = {};
+  /// What a log knows beside; none: a trajectory.
+  struct Log {
+    std::vector<Scan> scans = {};
+    std::vector<PlaceLabel> told = {};  ///< kinds of places, by what was scanned
+    std::vector<Se2> raw = {};          ///< odometry as the wheels measured it
+  };
+  std::optional<Log> log = {};
 };
 
 /// What the topology suite tries beside the stages.
@@ -34,7 +41,8 @@ void visit_fields(TopologySuiteParams& params, Visitor&& visit) {
 /// One recovery of one run.
 struct TopologyTrial {
   /// stages: as recorded, row by row of [Topo20, Table IV]; wrong pairs: pairs of places that are
-  /// not the same among the edges; wrong labels; odometry: made anew from the reference.
+  /// not the same among the edges; wrong labels; odometry: made anew from the reference; log: what
+  /// scans bring.
   std::string part;
   std::string row;     ///< what was done: a stage, a kernel
   double level = 0.0;  ///< share of what is wrong
@@ -42,18 +50,20 @@ struct TopologyTrial {
   std::uint64_t seed = 0;
   MetricErrors errors;
   PairCounts pairs;
+  std::optional<ConfusionMatrix> labels = {};  ///< where scans told the kinds of places
 };
 
 /// One piece of the suite; pieces may run in any order.
 struct TopologyTask {
   std::string part;
-  std::string row;
+  std::string row;  ///< with "siamese " before a stage: pairs are told by the comparator
   double level = 0.0;
   std::size_t set = 0;
   std::uint64_t seed = 0;
 };
 
-/// All pieces: stages once for each set, the other parts with seeds 1 ... `seeds`.
+/// All pieces. Trajectories: stages once for each, the other parts with seeds 1 ... `seeds`; logs:
+/// the part `log`, once.
 std::vector<TopologyTask> topology_tasks(std::span<const TopologySet> sets,
                                          const TopologySuiteParams& params, int seeds);
 

@@ -48,6 +48,17 @@ using SketchTrajectory = Trajectory<Sim2>;
 extern template class Trajectory<Se2>;
 extern template class Trajectory<Sim2>;
 
+/// The poses without their times.
+template <typename Pose>
+std::vector<Pose> poses_of(const Trajectory<Pose>& trajectory) {
+  std::vector<Pose> poses;
+  poses.reserve(trajectory.size());
+  for (const Stamped<Pose>& stamped : trajectory) {
+    poses.push_back(stamped.pose);
+  }
+  return poses;
+}
+
 /// Index pairs (first, second) of times that lie closest together, at most max_gap_s apart, each
 /// used once, closest pairs first served; no two pairs cross, so that the later of the first list
 /// has the later of the second. Checks that neither list decreases.

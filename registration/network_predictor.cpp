@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <mutex>
-#include <opencv2/core/utils/logger.hpp>
-#include <opencv2/dnn/dnn.hpp>
+#include <opencv2/core/utility.hpp>
 #include <stdexcept>
 #include <string>
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
-#include "registration/detail/match_layer.hpp"
 #include "registration/network_input.hpp"
 #include "registration/network_output.hpp"
+#include "registration/onnx_network.hpp"
 
 namespace sketchloc {
 namespace {
@@ -44,35 +42,6 @@ bool is_usable(const std::vector<float>& residual_output) {
          std::abs(residual_output[ResidualOutput::kPose + 3]) < kMostLogScale;
 }
 
-/// OpenCV warns of every operation that is not its own, and prints what it throws too. Its log
-/// level is the whole process's, so one at a time.
-class SilentOpenCv {
- public:
-  SilentOpenCv()
-      : alone_(mutex()),
-        before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
-  ~SilentOpenCv() { cv::utils::logging::setLogLevel(before_); }
-  SilentOpenCv(const SilentOpenCv&) = delete;
-  SilentOpenCv& operator=(const SilentOpenCv&) = delete;
-
- private:
-  static std::mutex& mutex() {
-    static std::mutex mutex;
-    return mutex;
-  }
-
-  std::lock_guard<std::mutex> alone_;
-  cv::utils::logging::LogLevel before_;
-};
-
-cv::dnn::Net read_network(std::span<const std::uint8_t> onnx) {
-  detail::register_match_layer();
-  cv::dnn::Net network =
-      cv::dnn::readNetFromONNX(reinterpret_cast<const char*>(onnx.data()), onnx.size());
-  network.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
-  return network;
-}
-
 /// The planes of a scan, and of as many drawings as there are priors, one after the other.
 struct Planes {
   std::vector<float> scan;
@@ -83,19 +52,7 @@ class NetworkPredictor final : public WarpPredictor {
  public:
   NetworkPredictor(std::span<const std::uint8_t> onnx, NetworkKind kind,
                    const NetworkPredictorParams& params)
-      : params_((validate(params), params)), kind_(kind) {
-    try {
-      const SilentOpenCv silent;
-      network_ = read_network(onnx);
-      const cv::Mat output = forward(nothing());
-      if (output.total() != outputs_of(kind)) {
-        throw std::runtime_error("expected " + std::to_string(outputs_of(kind)) +
-                                 " outputs, found " + std::to_string(output.total()));
-      }
-    } catch (const std::exception& error) {  // cv::Exception is one
-      throw std::runtime_error(std::string("no network of this kind: ") + error.what());
-    }
-  }
+      : params_((validate(params), params)), kind_(kind), network_(usable(onnx)) {}
 
   std::vector<std::optional<Registration>> predict(std::span<const PlacedScan> submap,
                                                    const SketchCropper& drawing,
@@ -127,24 +84,30 @@ class NetworkPredictor final : public WarpPredictor {
     return planes;
   }
 
-  void set_input(const char* name, int channels, const std::vector<float>& planes) {
-    const auto count = planes.size() / (static_cast<std::size_t>(channels) * cells());
-    const std::array<int, 4> shape = {static_cast<int>(count), channels, params_.window.cells,
-                                      params_.window.cells};
-    // setInput copies; cv::Mat has no view of constant numbers.
-    network_.setInput(cv::Mat(4, shape.data(), CV_32F, const_cast<float*>(planes.data())), name);
+  /// The network after a look at nothing.
+  OnnxNetwork usable(std::span<const std::uint8_t> onnx) const try {
+    OnnxNetwork network(onnx);
+    const std::size_t outputs = forward(network, nothing()).size();
+    if (outputs != outputs_of(kind_)) {
+      throw std::runtime_error("expected " + std::to_string(outputs_of(kind_)) +
+                               " outputs, found " + std::to_string(outputs));
+    }
+    return network;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string("no network of this kind: ") + error.what());
   }
 
-  cv::Mat forward(const Planes& planes) {
+  std::vector<float> forward(OnnxNetwork& network, const Planes& planes) const {
     const int all = channels_of(input_kind());
     const int of_scan = scan_channels_of(input_kind());
+    const int cells = params_.window.cells;
     if (input_kind() == InputKind::Residual) {
-      set_input(kScanInput, of_scan, planes.scan);
-      set_input(kDrawingInput, all - of_scan, planes.drawings);
-    } else {
-      set_input(kStackedInput, all, stacked(planes));
+      return network.run(
+          std::array{NetworkPlanes{kScanInput, of_scan, cells, planes.scan},
+                     NetworkPlanes{kDrawingInput, all - of_scan, cells, planes.drawings}});
     }
-    return network_.forward();
+    const std::vector<float> both = stacked(planes);
+    return network.run(std::array{NetworkPlanes{kStackedInput, all, cells, both}});
   }
 
   /// The scan's planes before each drawing's.
@@ -172,14 +135,14 @@ class NetworkPredictor final : public WarpPredictor {
   std::vector<std::vector<float>> look(std::span<const PlacedScan> submap,
                                        const SketchCropper& drawing, std::span<const Sim2> priors,
                                        const LocalWindow& window) {
-    const cv::Mat output = forward(planes_of(submap, drawing, priors, window));
+    const std::vector<float> output = forward(network_, planes_of(submap, drawing, priors, window));
     const std::size_t width = outputs_of(kind_);
-    if (output.total() != priors.size() * width) {
+    if (output.size() != priors.size() * width) {
       throw std::runtime_error("the network does not take several inputs at once");
     }
     std::vector<std::vector<float>> rows;
     for (std::size_t i = 0; i < priors.size(); ++i) {
-      const float* row = output.ptr<float>() + i * width;
+      const float* row = output.data() + i * width;
       rows.emplace_back(row, row + width);
     }
     return rows;
@@ -243,7 +206,7 @@ class NetworkPredictor final : public WarpPredictor {
 
   NetworkPredictorParams params_;
   NetworkKind kind_;
-  cv::dnn::Net network_;
+  OnnxNetwork network_;
 };
 
 }  // namespace

@@ -29,6 +29,12 @@ SKETCHLOC_EMBED(chen20);
 #ifdef SKETCHLOC_HAS_affine
 SKETCHLOC_EMBED(affine);
 #endif
+#ifdef SKETCHLOC_HAS_places
+SKETCHLOC_EMBED(places);
+#endif
+#ifdef SKETCHLOC_HAS_same_place
+SKETCHLOC_EMBED(same_place);
+#endif
 
 namespace sketchloc {
 
@@ -55,6 +61,22 @@ std::span<const std::uint8_t> shipped_network(NetworkKind kind) {
   }
   check(false, "a kind of predictor");
   return {};
+}
+
+std::span<const std::uint8_t> shipped_place_classifier() {
+#ifdef SKETCHLOC_HAS_places
+  return {sketchloc_places_begin, sketchloc_places_end};
+#else
+  return {};
+#endif
+}
+
+std::span<const std::uint8_t> shipped_place_comparator() {
+#ifdef SKETCHLOC_HAS_same_place
+  return {sketchloc_same_place_begin, sketchloc_same_place_end};
+#else
+  return {};
+#endif
 }
 
 }  // namespace sketchloc

@@ -50,7 +50,7 @@ const RecoveredRun& GrowingRun::update() {
   detail::decide_headings(evidence, likeliest(trackers));
   run_.evidence = std::move(evidence);
   run_.nodes = topological_nodes(run_.evidence.travel, labels_, params_.nodes);
-  const PoseGraph bare = run_graph(odom_from_robot_, run_.evidence, params_.graph);
+  const detail::BareRun bare{run_graph(odom_from_robot_, run_.evidence, params_.graph)};
   // Nodes only come and grow: the pairs of the last update stay what they were.
   detail::optimise_with(run_, bare, run_.pairs, params_);
   detail::optimise_with(run_, bare,

@@ -48,7 +48,7 @@ bool same_pairs(const std::vector<SamePlacePair>& a, const std::vector<SamePlace
   });
 }
 
-void close_loops(RecoveredRun& run, const PoseGraph& bare, const TopologyParams& params,
+void close_loops(RecoveredRun& run, const detail::BareRun& bare, const TopologyParams& params,
                  TopologyStage stage) {
   const auto proposed = [&](double least_probability) {
     return same_places(run.manhattan_from_robot, run.evidence.travel, run.nodes, params.same_place,
@@ -80,15 +80,30 @@ void validate(const TopologyParams& params) {
   validate_part("nodes", params.nodes);
   validate_part("same_place", params.same_place);
   validate_part("graph", params.graph);
+  validate_part("closure", params.closure);
   validate_part("kernel", params.kernel);
   require_in_range("most_rounds", params.most_rounds, 1.0, 1000.0);
   require_at_least("update_m", params.update_m, 0.0);
 }
 
+TopologyParams matched_topology_params() {
+  TopologyParams params;
+  params.drift.wander_deg = 0.05;
+  params.drift.turn_error_deg = 0.2;
+  params.drift.slope_deg_per_m = 0.05;
+  params.drift.slope_walk_deg = 0.002;
+  params.graph.step_sigma_m = 0.005;
+  params.graph.least_sigma_m = 0.001;
+  params.graph.least_sigma_deg = 0.01;
+  return params;
+}
+
 RecoveredRun recover_run(std::span<const Se2> odom_from_robot, std::span<const PlaceLabel> labels,
-                         const TopologyParams& params, TopologyStage stage) {
+                         const TopologyParams& params, TopologyStage stage,
+                         std::span<const Scan> scans) {
   validate(params);
   check(odom_from_robot.size() == labels.size(), "one label for each pose");
+  check(scans.empty() || scans.size() == labels.size(), "one scan for each pose, or none");
   RecoveredRun run{.evidence = heading_evidence(odom_from_robot, params)};
   run.nodes = topological_nodes(run.evidence.travel, labels, params.nodes);
   run.manhattan_from_robot.assign(odom_from_robot.begin(), odom_from_robot.end());
@@ -99,7 +114,8 @@ RecoveredRun recover_run(std::span<const Se2> odom_from_robot, std::span<const P
     run.manhattan_from_robot = snapped(odom_from_robot, run.evidence);
     return run;
   }
-  const PoseGraph bare = run_graph(odom_from_robot, run.evidence, params.graph);
+  const detail::BareRun bare{.graph = run_graph(odom_from_robot, run.evidence, params.graph),
+                             .scans = scans};
   detail::optimise_with(run, bare, {}, params);
   if (stage != TopologyStage::Manhattan) {
     close_loops(run, bare, params, stage);

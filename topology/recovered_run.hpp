@@ -10,6 +10,7 @@
 #include "topology/heading_drift.hpp"
 #include "topology/run_graph.hpp"
 #include "topology/same_place.hpp"
+#include "topology/scan_closure.hpp"
 #include "topology/straight_pieces.hpp"
 #include "topology/topological_nodes.hpp"
 
@@ -32,6 +33,7 @@ struct TopologyParams {
   NodeParams nodes = {};
   SamePlaceParams same_place = {};
   RunGraphParams graph = {};
+  ScanClosureParams closure = {};
   RobustKernel kernel = {.shape = KernelShape::Dcs, .width = 1.0};  ///< of pairs
   int most_rounds = 6;                                              ///< of the feedback, > 0
   double update_m = 5.0;  ///< of way between two updates of a run that grows, >= 0
@@ -45,10 +47,15 @@ void visit_fields(TopologyParams& params, Visitor&& visit) {
   visit("nodes", params.nodes);
   visit("same_place", params.same_place);
   visit("graph", params.graph);
+  visit("closure", params.closure);
   visit("kernel", params.kernel);
   visit("most_rounds", params.most_rounds);
   visit("update_m", params.update_m);
 }
+
+/// The parameters for odometry that was refined by matching scans
+/// (registration/matched_odometry.hpp).
+TopologyParams matched_topology_params();
 
 /// A trajectory brought back by what is known of buildings with right angles.
 struct RecoveredRun {
@@ -58,14 +65,17 @@ struct RecoveredRun {
   std::vector<SamePlacePair> pairs = {};  ///< those that were used
   PoseGraph graph = {};                   ///< at the optimum; empty where nothing was optimized
   OptimiseResult result = {};
-  int rounds = 0;  ///< optimizations
+  int rounds = 0;            ///< optimizations
+  std::size_t closures = 0;  ///< pairs whose passes were laid onto each other by their scans
 };
 
 /// Recovers a run from its odometry and the kind of place it was at, pose by pose. In a drive
-/// without straight pieces, or in no Manhattan-like building, little is gained. Poses and labels:
-/// equally many. Throws std::invalid_argument for parameters out of range.
+/// without straight pieces, or in no Manhattan-like building, little is gained. With scans, pairs
+/// are closed by these where they fit. Poses, labels and scans, if there are any: equally many.
+/// Throws std::invalid_argument for parameters out of range.
 RecoveredRun recover_run(std::span<const Se2> odom_from_robot, std::span<const PlaceLabel> labels,
                          const TopologyParams& params = {},
-                         TopologyStage stage = TopologyStage::Feedback);
+                         TopologyStage stage = TopologyStage::Feedback,
+                         std::span<const Scan> scans = {});
 
 }  // namespace sketchloc

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "motion/angles.hpp"
-#include "motion/check.hpp"
 #include "motion/validate.hpp"
 
 namespace sketchloc {
@@ -116,13 +115,10 @@ PoseGraph run_graph(std::span<const Se2> odom_from_robot, const HeadingEvidence&
 }
 
 void tie_together(PoseGraph& graph, const SamePlacePair& pair, const RunGraphParams& params) {
-  check(!pair.beside.empty(), "a pair has poses side by side");
-  std::vector<PosesBeside> beside = pair.beside;
-  const auto median = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
-  std::ranges::nth_element(beside, median, {}, &PosesBeside::across_m);
+  const PosesBeside beside = typical(pair);
   Eigen::Matrix3d across = Eigen::Matrix3d::Zero();
   across(1, 1) = 1.0 / squared(params.pass_sigma_m);
-  graph.edges.push_back(between_edge(median->earlier, median->later, Se2(), across));
+  graph.edges.push_back(between_edge(beside.earlier, beside.later, Se2(), across));
   graph.edges.back().may_be_wrong = true;
 }
 

@@ -42,8 +42,7 @@ struct HeadingEvidence {
 PoseGraph run_graph(std::span<const Se2> odom_from_robot, const HeadingEvidence& evidence,
                     const RunGraphParams& params);
 
-/// Adds a pair: no offset across its axis, told by one edge between the two poses whose distance
-/// across is the median: a robot that wobbles between racks is nowhere else as typical, and a
+/// Adds a pair: no offset across its axis, told by one edge between its typical poses, since a
 /// robust kernel sees a pair that is wrong as one edge that is far off.
 void tie_together(PoseGraph& graph, const SamePlacePair& pair, const RunGraphParams& params);
 

@@ -1,6 +1,7 @@
 #include "topology/same_place.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
@@ -9,6 +10,8 @@
 #include "motion/check.hpp"
 #include "motion/quantile.hpp"
 #include "motion/validate.hpp"
+#include "registration/shipped_networks.hpp"
+#include "topology/place_comparator.hpp"
 
 namespace sketchloc {
 namespace {
@@ -62,6 +65,9 @@ double probability_of(double across_m, const SamePlaceParams& params) {
   return same / (same + other);
 }
 
+constexpr std::array<std::pair<std::string_view, PlaceComparison>, 2> kComparisons = {
+    {{"geometry", PlaceComparison::Geometry}, {"siamese", PlaceComparison::Siamese}}};
+
 struct Compared {
   std::span<const Se2> poses;
   const SamePlaceParams& params;
@@ -94,7 +100,29 @@ std::optional<SamePlacePair> compared(const Compared& context, const Topological
   return pair;
 }
 
+NodeEnds ends_of(std::span<const Se2> poses, const TopologicalNode& node) {
+  return {.from_in_manhattan = poses[node.first].translation(),
+          .to_in_manhattan = poses[node.last].translation()};
+}
+
+/// Probabilities by the comparator instead.
+void compare_by_network(std::vector<SamePlacePair>& pairs, std::span<const Se2> poses,
+                        std::span<const TopologicalNode> nodes) {
+  std::vector<NodeEndsPair> ends;
+  for (const SamePlacePair& pair : pairs) {
+    ends.push_back({ends_of(poses, nodes[pair.earlier]), ends_of(poses, nodes[pair.later])});
+  }
+  const std::vector<double> distances = PlaceComparator(shipped_place_comparator()).distances(ends);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[i].probability = std::clamp(1.0 - distances[i], 0.0, 1.0);
+  }
+}
+
 }  // namespace
+
+std::span<const std::pair<std::string_view, PlaceComparison>> names_of(PlaceComparison) {
+  return kComparisons;
+}
 
 void validate(const SamePlaceParams& params) {
   require_above("shortest_m", params.shortest_m, 0.0);
@@ -104,6 +132,14 @@ void validate(const SamePlaceParams& params) {
   require_above("aisle_spacing_m", params.aisle_spacing_m, 0.0);
   require_in_range("confident", params.confident, 0.0, 1.0);
   require_in_range("possible", params.possible, 0.0, 1.0);
+}
+
+PosesBeside typical(const SamePlacePair& pair) {
+  check(!pair.beside.empty(), "a pair has poses side by side");
+  std::vector<PosesBeside> beside = pair.beside;
+  const auto median = beside.begin() + static_cast<std::ptrdiff_t>(beside.size() / 2);
+  std::ranges::nth_element(beside, median, {}, &PosesBeside::across_m);
+  return *median;
 }
 
 std::vector<SamePlacePair> same_places(std::span<const Se2> manhattan_from_robot,
@@ -127,13 +163,18 @@ std::vector<SamePlacePair> same_places(std::span<const Se2> manhattan_from_robot
         continue;
       }
       auto pair = compared(context, nodes[earlier], *axes[earlier], nodes[later], *axes[later]);
-      if (pair && pair->probability >= least_probability) {
+      if (pair) {
         pair->earlier = earlier;
         pair->later = later;
         pairs.push_back(*std::move(pair));
       }
     }
   }
+  if (params.comparison == PlaceComparison::Siamese) {
+    compare_by_network(pairs, manhattan_from_robot, nodes);
+  }
+  std::erase_if(pairs,
+                [&](const SamePlacePair& pair) { return pair.probability < least_probability; });
   return pairs;
 }
 

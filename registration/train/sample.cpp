@@ -6,6 +6,7 @@
 
 #include "motion/validate.hpp"
 #include "registration/network_output.hpp"
+#include "registration/train/driven_submap.hpp"
 
 namespace sketchloc {
 namespace {
@@ -16,10 +17,6 @@ struct Submap {
   std::vector<PlacedScan> scans;
   std::vector<Scan> owned;  ///< at most one: a scan that is not of the drive
 };
-
-std::size_t draw_index(std::size_t count, Rng& rng) {
-  return std::min(static_cast<std::size_t>(uniform(rng) * static_cast<double>(count)), count - 1);
-}
 
 Submap draw_lone_scan(const Scene& scene, Rng& rng) {
   const Se2& on_drive = scene.drive()[draw_index(scene.drive().size(), rng)].pose;
@@ -35,21 +32,12 @@ Submap draw_lone_scan(const Scene& scene, Rng& rng) {
 /// Goes back along the drive from a random scan, with odometry as good as scan matching makes it.
 Submap draw_driven_submap(const Scene& scene, const SampleParams& params, Rng& rng) {
   const std::size_t present = draw_index(scene.scans().size(), rng);
-  const std::size_t wanted = 1 + draw_index(static_cast<std::size_t>(params.max_scans), rng);
-  Submap submap{.world_from_robot = scene.drive()[present].pose, .scans = {}, .owned = {}};
-  submap.scans.push_back({.scan = &scene.scans()[present]});
-  Se2 robot_from_then;
-  std::size_t last = present;
-  for (std::size_t i = present; i-- > 0 && submap.scans.size() < wanted;) {
-    const Se2 last_from_here = scene.drive()[last].pose.inverse() * scene.drive()[i].pose;
-    if (last_from_here.translation().norm() < params.scan_spacing_m) {
-      continue;
-    }
-    robot_from_then = robot_from_then * sample_increment(last_from_here, params.submap_noise, rng);
-    submap.scans.push_back({.scan = &scene.scans()[i], .robot_from_then = robot_from_then});
-    last = i;
-  }
-  return submap;
+  const DrivenSubmapParams submap{.max_scans = params.max_scans,
+                                  .scan_spacing_m = params.scan_spacing_m,
+                                  .noise = params.submap_noise};
+  return {.world_from_robot = scene.drive()[present].pose,
+          .scans = draw_driven_submap(scene.drive(), scene.scans(), present, submap, rng),
+          .owned = {}};
 }
 
 /// A prior from which a network has looked once or twice.

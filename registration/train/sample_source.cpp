@@ -20,11 +20,6 @@ namespace {
 
 constexpr std::uint64_t kBatchesAhead = 4;
 
-/// The engines of a stream; scenes and samples never share one.
-std::uint64_t stream_seed(const SampleSource::Stream& stream, std::uint64_t purpose) {
-  return make_rng(stream.seed, static_cast<std::uint64_t>(stream.split), purpose)();
-}
-
 void put(std::vector<float>& all, std::size_t index, std::span<const float> one) {
   std::copy(one.begin(), one.end(), all.begin() + static_cast<std::ptrdiff_t>(index * one.size()));
 }
@@ -60,14 +55,18 @@ void put(SampleBatch& batch, std::size_t index, const Sample& sample) {
 
 }  // namespace
 
+std::uint64_t split_seed(SampleSplit split, std::uint64_t seed, std::uint64_t purpose) {
+  return make_rng(seed, static_cast<std::uint64_t>(split), purpose)();
+}
+
 /// Every scene has a place in all batches, and one thread for good, so that nobody shares it.
 class SampleSource::Work {
  public:
   Work(const SampleSourceParams& params, const Stream& stream, int threads)
       : params_(params),
         stream_(stream),
-        scene_seed_(stream_seed(stream, 0)),
-        sample_seed_(stream_seed(stream, 1)),
+        scene_seed_(split_seed(stream.split, stream.seed, 0)),
+        sample_seed_(split_seed(stream.split, stream.seed, 1)),
         consumed_(stream.first_batch),
         scenes_(static_cast<std::size_t>(params.scenes)) {
     validate(params);

@@ -47,6 +47,9 @@ void validate(const SampleSourceParams& params);
 /// Worlds that never meet: buildings, people and robots of one are not in the other.
 enum class SampleSplit : std::uint64_t { Training, Validation };
 
+/// The seed of one purpose of a split; what is drawn for one never meets another.
+std::uint64_t split_seed(SampleSplit split, std::uint64_t seed, std::uint64_t purpose);
+
 /// An endless stream of samples, made by threads of its own. Batch n is the same for a seed and a
 /// split, whatever the number of threads and wherever the stream starts.
 class SampleSource {

@@ -27,17 +27,6 @@ BuildingKind draw_kind(const SceneParams& params, Rng& rng) {
                                                          : BuildingKind::Warehouse;
 }
 
-LidarModel draw_lidar(const SceneParams& params, Rng& rng) {
-  const double view_rad = uniform(params.min_field_of_view_rad, params.max_field_of_view_rad, rng);
-  return {.field_of_view_rad = view_rad,
-          .beams = static_cast<int>(deg_from_rad(view_rad)) + 1,
-          .max_range_m = uniform(params.min_max_range_m, params.max_max_range_m, rng),
-          .range_sigma_m = uniform(0.005, 0.03, rng),
-          .dropout_share = uniform(0.0, 0.03, rng),
-          .short_share = uniform(0.0, 0.02, rng),
-          .forward_m = uniform(-0.1, 0.25, rng)};
-}
-
 Grid<std::uint8_t> indoor_cells(const FloorPlan& plan, const PlaneBox& box) {
   const Eigen::Vector2d size = box.size() / kIndoorsCell_m;
   Grid<std::uint8_t> cells(static_cast<int>(std::ceil(size.x())),
@@ -55,6 +44,19 @@ Grid<std::uint8_t> indoor_cells(const FloorPlan& plan, const PlaneBox& box) {
   return cells;
 }
 
+}  // namespace
+
+LidarModel draw_lidar(const SceneParams& params, Rng& rng) {
+  const double view_rad = uniform(params.min_field_of_view_rad, params.max_field_of_view_rad, rng);
+  return {.field_of_view_rad = view_rad,
+          .beams = static_cast<int>(deg_from_rad(view_rad)) + 1,
+          .max_range_m = uniform(params.min_max_range_m, params.max_max_range_m, rng),
+          .range_sigma_m = uniform(0.005, 0.03, rng),
+          .dropout_share = uniform(0.0, 0.03, rng),
+          .short_share = uniform(0.0, 0.02, rng),
+          .forward_m = uniform(-0.1, 0.25, rng)};
+}
+
 std::vector<Scan> scan_drive(const LidarSimulator& lidar, const MetricTrajectory& drive, Rng& rng) {
   std::vector<Scan> scans;
   scans.reserve(drive.size());
@@ -63,8 +65,6 @@ std::vector<Scan> scan_drive(const LidarSimulator& lidar, const MetricTrajectory
   }
   return scans;
 }
-
-}  // namespace
 
 void validate(const SceneParams& params) {
   require_in_range("human_share", params.human_share, 0.0, 1.0);

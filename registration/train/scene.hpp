@@ -44,6 +44,12 @@ void visit_fields(SceneParams& scene, Visitor&& visit) {
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const SceneParams& params);
 
+/// A scanner with a random field of view, reach and noise.
+LidarModel draw_lidar(const SceneParams& params, Rng& rng);
+
+/// What a scanner saw on a drive, one scan for each pose.
+std::vector<Scan> scan_drive(const LidarSimulator& lidar, const MetricTrajectory& drive, Rng& rng);
+
 /// A building, a drawing of it and a robot that was driven through it, ready to cut samples from.
 class Scene {
  public:

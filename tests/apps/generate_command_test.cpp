@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "datasets/io/labels_io.hpp"
 #include "datasets/io/reference_io.hpp"
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/sketch_io.hpp"
@@ -87,6 +88,7 @@ TEST(GenerateEndToEnd, WritesWhatTheReadersRead) {
   EXPECT_EQ(sketch.kind, Sketch::Kind::Strokes);
   EXPECT_GT(run.steps.size(), 30U);
   EXPECT_EQ(reference.poses.size(), run.steps.size());
+  EXPECT_EQ(read_labels(folder / "set" / "labels.csv").size(), run.steps.size());
 }
 
 TEST(GenerateEndToEnd, DrawsTheTrueMapWithItsScaleWhereNobodyDraws) {

@@ -27,13 +27,14 @@ namespace {
 /// Every parameter struct that a command reads, the ones inside others by themselves.
 template <typename T>
 class Parameters : public ::testing::Test {};
-using ParameterStructs = ::testing::Types<
-    OdometryNoise, PersonParams, DriveParams, LidarModel, OdometryModel, MapReadingParams,
-    PredictParams, BeamModelParams, EndPointModelParams, KldParams, ModeParams, MotionGate,
-    StartSpread, RecoveryParams, RangeTableParams, MatchedOdometryParams, LocalizerParams,
-    LocalizationParams, GenerateParams, SceneParams, PriorError, SampleParams, SampleSourceParams,
-    IcpParams, RecentScansParams, RegistrationSuiteParams, RegistrationSetParams,
-    NetworkPredictorParams, KeyframeParams, DrawingWalk, SmoothingParams, SmoothingPlan>;
+using ParameterStructs =
+    ::testing::Types<OdometryNoise, PersonParams, DriveParams, LidarModel, OdometryModel,
+                     MapReadingParams, PredictParams, BeamModelParams, EndPointModelParams,
+                     KldParams, ModeParams, MotionGate, StartSpread, RecoveryParams,
+                     RangeTableParams, MatchedOdometryParams, LocalizerParams, LocalizationParams,
+                     GenerateParams, SceneParams, PriorError, SampleParams, SampleSourceParams,
+                     IcpParams, RecentScansParams, RegistrationSuiteParams, RegistrationSetParams,
+                     NetworkPredictorParams>;
 TYPED_TEST_SUITE(Parameters, ParameterStructs);
 
 template <ParameterStruct T>

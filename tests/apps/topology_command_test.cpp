@@ -154,5 +154,55 @@ INSTANTIATE_TEST_SUITE_P(Warehouse, WarehouseEndToEnd, ::testing::Values("W-1.1"
                            return std::string(run.param) == "W-1.1" ? "First" : "Second";
                          });
 
+class TopologyOfALogEndToEnd : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const CommandResult made =
+        testing::run_command({SKETCHLOC_PROGRAM, "generate", "--quiet", "--kind", "warehouse",
+                              "--seed", "4", "--drive.length_m", "60", "--out", folder_ / "run"});
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+
+  CommandResult topology(const std::vector<std::string>& flags) const {
+    std::vector<std::string> command = {SKETCHLOC_PROGRAM, "topology", "--out", folder_ / "out",
+                                        "--force"};
+    command.insert(command.end(), flags.begin(), flags.end());
+    return testing::run_command(command);
+  }
+
+  testing::TemporaryDirectory folder_;
+};
+
+TEST_F(TopologyOfALogEndToEnd, TellsKindsOfPlacesAndClosesLoopsByScans) {
+  const CommandResult result =
+      topology({"--log", folder_ / "run/log.jsonl", "--reference", folder_ / "run/truth.tum",
+                "--reference-labels", folder_ / "run/labels.csv"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("kinds of places: "));
+  const nlohmann::json metrics = nlohmann::json::parse(content_of(folder_ / "out/metrics.json"));
+  EXPECT_GT(metrics["labels"]["accuracy"], 0.7);
+  EXPECT_LT(metrics["ate_m"]["se2"]["rmse"], 0.5);
+  EXPECT_EQ(read_labels(folder_ / "out/labels.csv").size(), metrics["poses"]);
+}
+
+TEST_F(TopologyOfALogEndToEnd, TakesLabelsAndRawOdometryWhereTheyAreGiven) {
+  const CommandResult result = topology({"--log", folder_ / "run/log.jsonl", "--labels",
+                                         folder_ / "run/labels.csv", "--odometry", "raw"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/labels.csv"));
+  EXPECT_THAT(content_of(folder_ / "out/run.yaml"), HasSubstr("odometry: raw"));
+}
+
+TEST_F(TopologyOfALogEndToEnd, SaysWhatBelongsTogether) {
+  const std::string log = folder_ / "run/log.jsonl";
+  EXPECT_THAT(topology({}).err, HasSubstr("--log"));
+  EXPECT_THAT(topology({"--log", log, "--trajectory", folder_ / "run/truth.tum"}).err,
+              HasSubstr("one of the two"));
+  EXPECT_THAT(topology({"--trajectory", folder_ / "run/truth.tum"}).err, HasSubstr("--labels"));
+  const CommandResult result = topology({"--log", log, "--network", log});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, AllOf(HasSubstr("log.jsonl: no network"), HasSubstr("--network places")));
+}
+
 }  // namespace
 }  // namespace sketchloc

@@ -4,62 +4,54 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace sketchloc {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::StartsWith;
+using ::testing::Not;
 
-std::string three_rows() {
-  std::string csv = curve_header();
-  for (const std::uint64_t samples : {1000U, 2000U, 3000U}) {
-    csv += curve_row({.samples = samples,
-                      .seconds = 0.5 * static_cast<double>(samples),
-                      .loss = {.total = 1.25},
-                      .validation = {}});
-  }
-  return csv;
+constexpr std::array<std::string_view, 2> kColumns = {"error_cm", "prior_error_cm"};
+constexpr std::array kPanels = {
+    CurvePanel{
+        .title = "Error", .column = "error_cm", .top_column = "prior_error_cm", .unit = "cm"},
+    CurvePanel{.title = "Share", .column = "error_cm", .unit = "%"}};
+
+std::string header() { return curve_header(kColumns); }
+
+std::string row(std::uint64_t samples, double error_cm) {
+  return curve_row(samples, 0.5 * static_cast<double>(samples), std::array{error_cm, 100.0});
 }
 
-TEST(TrainingCurve, HasAColumnForEveryNumber) {
-  const std::string header = curve_header();
-  const std::string row = curve_row({});
-  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(row.begin(), row.end(), ','));
-  EXPECT_THAT(curve_row({.samples = 128, .seconds = 2.5, .loss = {}, .validation = {}}),
-              StartsWith("128,2.5,"));
+TEST(TrainingCurve, IsATable) {
+  EXPECT_EQ(header() + row(128, 2.5), "samples,seconds,error_cm,prior_error_cm\n128,64,2.5,100\n");
 }
 
 TEST(TrainingCurve, ForgetsWhatCameAfterACheckpoint) {
-  const std::string kept = curve_until(three_rows(), 2000);
-  EXPECT_EQ(std::count(kept.begin(), kept.end(), '\n'), 3);
+  const std::string kept =
+      curve_until(header() + row(1000, 3) + row(2000, 2) + row(3000, 1), header(), 2000);
+  EXPECT_EQ(kept, header() + row(1000, 3) + row(2000, 2));
   EXPECT_EQ(seconds_of_curve(kept), 1000.0);
-  EXPECT_EQ(curve_until(kept, 2000), kept);
+  EXPECT_EQ(curve_until(kept, header(), 2000), kept);
 }
 
 TEST(TrainingCurve, BeginsWithItsHeaderAlone) {
-  EXPECT_EQ(curve_until("", 2000), curve_header());
-  EXPECT_EQ(seconds_of_curve(curve_header()), 0.0);
+  EXPECT_EQ(curve_until("", header(), 2000), header());
+  EXPECT_EQ(seconds_of_curve(header()), 0.0);
 }
 
 TEST(TrainingCurve, IsAPictureFromTwoPointsOn) {
-  EXPECT_EQ(curve_svg(curve_header()), "");
-  const auto point = [](std::uint64_t samples, double error_m) {
-    ValidationReport report;
-    report.position_m.median = error_m;
-    report.prior_position_m.median = 1.0;
-    report.prior_heading_rad.median = 0.1;
-    return curve_row({.samples = samples, .seconds = 1.0, .loss = {}, .validation = report});
-  };
-  const std::string svg =
-      curve_svg(curve_header() + point(1'000'000, 0.5) + point(2'000'000, 0.25));
-  EXPECT_THAT(svg, HasSubstr("last 25.0"));
+  EXPECT_EQ(curve_svg(header() + row(1, 1), kPanels), "");
+  const std::string svg = curve_svg(header() + row(1'000'000, 50) + row(2'000'000, 25), kPanels);
+  EXPECT_THAT(svg, HasSubstr("Error, cm (top: the priors); last 25.0"));
+  EXPECT_THAT(svg, HasSubstr("Share, %; last 25.0"));
   EXPECT_THAT(svg, HasSubstr("2.0M"));
 }
 
 TEST(TrainingCurve, RefusesARowThatIsNone) {
-  EXPECT_THROW(curve_until(curve_header() + "spilt coffee\n", 10), std::runtime_error);
+  EXPECT_THROW(curve_until(header() + "spilt coffee\n", header(), 10), std::runtime_error);
 }
 
 }  // namespace

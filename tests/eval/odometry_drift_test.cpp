@@ -121,14 +121,6 @@ Odometry matched_odometry(const Run& run) {
   return odometry;
 }
 
-std::vector<Se2> poses_of(const MetricTrajectory& trajectory) {
-  std::vector<Se2> poses;
-  for (const Stamped<Se2>& stamped : trajectory) {
-    poses.push_back(stamped.pose);
-  }
-  return poses;
-}
-
 MatchedPoses pair_up(const RealRun& real, const Odometry& odometry) {
   return {poses_of(real.world_from_robot), poses_of(odometry.odom_from_robot)};
 }

@@ -22,9 +22,9 @@ struct Folder {
 };
 
 const std::vector<std::string> kAllButApps = {
-    "motion",        "motion/graph", "datasets",           "datasets/io",
-    "datasets/sim",  "registration", "registration/train", "filter",
-    "filter/online", "planning",     "smoothing",          "topology"};
+    "motion",       "motion/graph",       "datasets", "datasets/io",   "datasets/sim",
+    "registration", "registration/train", "filter",   "filter/online", "planning",
+    "topology"};
 
 std::vector<std::string> all_but_apps_and(std::initializer_list<std::string> more) {
   std::vector<std::string> folders = kAllButApps;
@@ -41,13 +41,12 @@ const std::vector<Folder>& floor_plan() {
       {"datasets/sim", {"motion", "datasets", "registration"}, {}},
       {"registration", {"motion", "datasets"}, {"highway", "opencv", "open3d"}},
       {"registration/train",
-       {"motion", "datasets", "registration", "datasets/sim"},
+       {"motion", "datasets", "registration", "datasets/sim", "topology"},
        {"torch", "onnx"}},
       {"filter", {"motion", "datasets", "registration"}, {"highway"}},
       {"filter/online", {"motion", "datasets", "registration", "filter"}, {}},
       {"planning", {"motion", "datasets", "registration"}, {"ompl"}},
-      {"smoothing", {"motion", "motion/graph", "datasets", "registration"}, {}},
-      {"topology", {"motion", "motion/graph", "datasets", "registration"}, {"opencv"}},
+      {"topology", {"motion", "motion/graph", "datasets", "registration"}, {}},
       {"eval", kAllButApps, {"opencv", "json"}},
       {"eval/bench", all_but_apps_and({"eval", "tests"}), {"benchmark", "highway"}},
       {"apps", all_but_apps_and({"eval"}), {"cli11", "spdlog", "yaml", "json", "mpi"}},

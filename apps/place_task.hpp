@@ -1,0 +1,19 @@
+#pragma once
+
+#include <memory>
+
+#include "apps/learning_task.hpp"
+#include "registration/train/node_pairs.hpp"
+#include "registration/train/place_samples.hpp"
+
+namespace sketchloc {
+
+/// Learns to tell kinds of places by what a LIDAR sees.
+std::unique_ptr<LearningTask> make_label_task(const PlaceSampleParams& samples,
+                                              const LearningPlan& plan);
+
+/// Learns to tell nodes of one place from others by where they lie.
+std::unique_ptr<LearningTask> make_same_place_task(const NodePairParams& pairs,
+                                                   const LearningPlan& plan);
+
+}  // namespace sketchloc
