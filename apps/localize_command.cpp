@@ -1,5 +1,7 @@
 #include "apps/localize_command.hpp"
 
+#include <spdlog/spdlog.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -41,6 +43,12 @@ void check_starts(const LocalizeOptions& options, const LocalizationMethod& meth
   if (!start.has_pose() && method.method != Method::Mcl) {
     throw std::invalid_argument("--method " + method.name +
                                 " needs --start or --start-from-reference");
+  }
+}
+
+void check_smoothing(const LocalizeOptions& options, const LocalizationMethod& method) {
+  if (options.smooth && !(method.method == Method::Mcl && method.registration)) {
+    throw std::invalid_argument("--smooth needs a filter with registrations; give --method ours");
   }
 }
 
@@ -111,8 +119,9 @@ void localize_into(RunRecord& record, const LocalizeOptions& options,
   const LocalizationTask task{.method = method.method,
                               .odometry = options.method.odometry,
                               .start_sketch_from_robot = start_of(options, record),
-                              .predictor = predictor.get()};
-  Progress progress("localize", record.run.steps.size());
+                              .predictor = predictor.get(),
+                              .smooth = options.smooth || method.smooth};
+  Progress progress("localize", steps_of_work(record.run, task));
   const Clock::time_point begin = Clock::now();
   LocalizationParams of_method = params;
   of_method.localizer = params_of(method, params.localizer);
@@ -123,6 +132,12 @@ void localize_into(RunRecord& record, const LocalizeOptions& options,
   require_done(found.status, options);
   record.steps = std::move(found.steps);
   record.snapshots = std::move(found.snapshots);
+  record.filtered = std::move(found.filtered);
+  record.keyframes = std::move(found.keyframes);
+  if (task.smooth && record.filtered.empty()) {
+    spdlog::warn("{}: nothing could be registered, so that the run is not smoothed",
+                 options.log.string());
+  }
 }
 
 std::string start_text(const LocalizeOptions& options) {
@@ -149,6 +164,7 @@ RunDescription description_of(const LocalizeOptions& options, const Localization
     }
   };
   add("network", options.method.network.string());
+  add("smooth", options.smooth ? "true" : "");
   add("start", options.start.pose);
   add("start-from-reference", options.start.from_reference ? "true" : "");
   add("global", options.start.has_pose() ? "" : "true");
@@ -198,6 +214,10 @@ void add_algorithm_options(CLI::App& command, LocalizeOptions& options) {
   std::ranges::transform(localization_methods(), std::back_inserter(names),
                          &LocalizationMethod::name);
   add_method_options(command, options.method, names);
+  command
+      .add_flag("--smooth", options.smooth,
+                "Smooth the path after the run, with all that it showed; see docs/smoothing.md")
+      ->group(kAlgorithmGroup);
 }
 
 void add_other_options(CLI::App& command, LocalizeOptions& options) {
@@ -232,6 +252,7 @@ void run_localize(const LocalizeOptions& options) {
   RunRecord record = read_inputs(options);
   const LocalizationMethod& method = method_of(options.method, record.sketch);
   check_starts(options, method);
+  check_smoothing(options, method);
   const auto params =
       parameters_for<LocalizationParams>(record.sketch, options.parameters, options.method);
   localize_into(record, options, method, params);

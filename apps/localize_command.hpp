@@ -24,6 +24,7 @@ struct LocalizeOptions {
 
   StartOptions start;
   MethodOptions method;
+  bool smooth = false;  ///< after the run, with all that it showed
 
   RunReading reading;     ///< of the log
   SketchReading drawing;  ///< of the map

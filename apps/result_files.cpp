@@ -10,6 +10,7 @@
 
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/trajectory_io.hpp"
+#include "eval/keyframe_io.hpp"
 #include "eval/picture.hpp"
 #include "eval/report.hpp"
 #include "eval/step_table.hpp"
@@ -17,19 +18,6 @@
 
 namespace sketchloc {
 namespace {
-
-/// Times of a log need not increase strictly, those of a trajectory do: of poses at one time the
-/// last counts.
-SketchTrajectory trajectory_of(const std::vector<StepReport>& steps) {
-  SketchTrajectory trajectory;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    const bool last_at_its_time = i + 1 == steps.size() || steps[i + 1].time_s > steps[i].time_s;
-    if (last_at_its_time) {
-      trajectory.append(steps[i].time_s, steps[i].estimate.sketch_from_robot);
-    }
-  }
-  return trajectory;
-}
 
 /// What cannot be drawn must not cost the figures.
 void write_for_people(const OutputFolder& out, const std::string& name,
@@ -42,6 +30,17 @@ void write_for_people(const OutputFolder& out, const std::string& name,
 }
 
 }  // namespace
+
+SketchTrajectory trajectory_of(const std::vector<StepReport>& steps) {
+  SketchTrajectory trajectory;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    const bool last_at_its_time = i + 1 == steps.size() || steps[i + 1].time_s > steps[i].time_s;
+    if (last_at_its_time) {
+      trajectory.append(steps[i].time_s, steps[i].estimate.sketch_from_robot);
+    }
+  }
+  return trajectory;
+}
 
 Reference as_reference(const std::vector<AlternativePose>& alternative, const Reference& first) {
   Reference reference;
@@ -74,6 +73,10 @@ void write_result_files(const OutputFolder& out, const RunRecord& record,
                         const RunDescription& description) {
   write_tum(out / "trajectory.tum", trajectory_of(record.steps));
   write_atomically(out / "trajectory.csv", step_table_csv(record.steps));
+  if (!record.filtered.empty()) {
+    write_atomically(out / "filtered.csv", step_table_csv(record.filtered));
+    write_atomically(out / "keyframes.jsonl", to_jsonl(record.keyframes));
+  }
   write_atomically(out / "metrics.json", to_json(measure_run(record)));
   write_atomically(out / "run.yaml", run_file_text(description));
   write_for_people(out, "report.html", [&] { return report_html(record); });

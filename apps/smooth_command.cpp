@@ -18,6 +18,7 @@
 #include "apps/output_folder.hpp"
 #include "apps/program.hpp"
 #include "apps/run_file.hpp"
+#include "apps/smooth_run.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/g2o_io.hpp"
 #include "eval/graph_record.hpp"
@@ -193,7 +194,14 @@ std::string summary_text(const GraphRecord& record) {
 }  // namespace
 
 void run_smooth(const SmoothOptions& options) {
+  if (options.run.empty() == options.graph.empty()) {
+    throw std::invalid_argument("give the folder of a run, or --graph IN.g2o");
+  }
   const SmoothParams params = parameters_of(options);
+  if (!options.run.empty()) {
+    smooth_run(options, params);
+    return;
+  }
   OutputFolder out(options.out, options.force);
   const GraphRecord record = smoothed(options, params);
   warn_of_status(record, options);
@@ -207,13 +215,18 @@ void run_smooth(const SmoothOptions& options) {
 }
 
 void add_smooth_command(CLI::App& program) {
-  CLI::App* command =
-      program.add_subcommand("smooth", "Move the poses of a graph to where its edges agree best.");
+  CLI::App* command = program.add_subcommand(
+      "smooth", "Move the poses of a run or a graph to where all agrees best.");
   const auto options = std::make_shared<SmoothOptions>();
+  command
+      ->add_option("run,--run", options->run,
+                   "What sketchloc localize --smooth wrote: the poses of its keyframes are found "
+                   "anew, from keyframes.jsonl alone")
+      ->type_name("RUN_DIR")
+      ->group(kAlgorithmGroup);
   command
       ->add_option("--graph", options->graph,
                    "Poses and relative poses between them: VERTEX_SE2, EDGE_SE2; plain or gzip")
-      ->required()
       ->type_name("IN.g2o")
       ->group(kAlgorithmGroup);
   add_named_option(*command, "--start", options->start, start_names(),
@@ -251,7 +264,8 @@ void add_smooth_command(CLI::App& program) {
       ->group(kOutputGroup);
   command
       ->add_option("--out", options->out,
-                   "Folder for graph.g2o, metrics.json, picture.png and run.yaml")
+                   "Folder for graph.g2o, metrics.json and picture.png, or for the trajectory of a "
+                   "run; and run.yaml")
       ->required()
       ->type_name("DIR")
       ->group(kOutputGroup);

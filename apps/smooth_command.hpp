@@ -7,6 +7,7 @@
 #include "apps/parameter_options.hpp"
 #include "motion/graph/incremental.hpp"
 #include "motion/graph/optimise.hpp"
+#include "smoothing/smoothing_params.hpp"
 
 namespace CLI {
 class App;
@@ -23,17 +24,20 @@ enum class GraphPoses {
 struct SmoothParams {
   OptimiseParams optimise;
   IncrementalParams incremental;  ///< with --incremental
+  SmoothingParams smoothing;      ///< of a run
 };
 
 template <typename Visitor>
 void visit_fields(SmoothParams& params, Visitor&& visit) {
   visit("optimise", params.optimise);
   visit("incremental", params.incremental);
+  visit("smoothing", params.smoothing);
 }
 
 /// What `sketchloc smooth` is told.
 struct SmoothOptions {
-  std::filesystem::path graph;
+  std::filesystem::path run;    ///< folder of a run in a drawing; or else
+  std::filesystem::path graph;  ///< a graph
   GraphPoses start = GraphPoses::Given;
   std::optional<KernelShape> kernel;  ///< wins over the parameters
   bool incremental = false;           ///< vertex by vertex, in the order of the file

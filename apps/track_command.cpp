@@ -256,7 +256,7 @@ namespace {
 std::vector<std::string> filters() {
   std::vector<std::string> names;
   for (const LocalizationMethod& method : localization_methods()) {
-    if (method.method == Method::Mcl) {
+    if (!method.smooth && method.method == Method::Mcl) {
       names.push_back(method.name);
     }
   }

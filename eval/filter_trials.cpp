@@ -128,7 +128,8 @@ FilterTrial run_filter_trial(const FilterTask& task, const FilterData& data,
                     data.start == FilterStart::Anywhere
                         ? std::nullopt
                         : std::optional(data.reference.poses.front().sketch_from_robot),
-                .predictor = predictor},
+                .predictor = predictor,
+                .smooth = method.smooth},
                used);
   if (found.status != Localization::Status::Done) {
     throw std::runtime_error(task.set + ": cannot be localized in; it has no scans");

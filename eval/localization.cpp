@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "eval/filter_pass.hpp"
+#include "eval/smoothed_localization.hpp"
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
 #include "registration/ray_caster.hpp"
@@ -10,63 +12,6 @@
 
 namespace sketchloc {
 namespace {
-
-constexpr std::size_t kSnapshots = 80;
-constexpr std::size_t kParticlesShown = 400;
-
-/// As many particles as one looks at, drawn by weight.
-ParticleSnapshot snapshot_of(const ParticleSet& particles, std::size_t step, std::uint64_t seed) {
-  constexpr std::uint64_t kPurpose = 1ULL << 32;  // far from the localizer's own streams
-  Rng rng = make_rng(seed, kPurpose, step);
-  std::vector<std::uint32_t> shown(std::min(kParticlesShown, particles.size()));
-  systematic_parents(particles.log_weight, shown, rng);
-  ParticleSnapshot snapshot{.step = step, .particles = {}};
-  for (const std::uint32_t i : shown) {
-    snapshot.particles.push_back({.x_px = particles.x_px[i],
-                                  .y_px = particles.y_px[i],
-                                  .yaw_rad = particles.heading_rad[i],
-                                  .weight = 1.0F / static_cast<float>(shown.size())});
-  }
-  return snapshot;
-}
-
-/// The last scan where none has any.
-const Scan& first_scan_with_returns(const Run& run) {
-  for (const RunStep& step : run.steps) {
-    if (!end_points_in_robot(step.scan).empty()) {
-      return step.scan;
-    }
-  }
-  return run.steps.back().scan;
-}
-
-Localization localize_by_filter(const Sketch& sketch, const Run& run, const LocalizationTask& task,
-                                const LocalizationParams& params,
-                                const std::function<void(std::size_t)>& progress) {
-  Localization result;
-  Localizer localizer(sketch, params.localizer, task.predictor);
-  if (task.start_sketch_from_robot) {
-    localizer.start_at(*task.start_sketch_from_robot);
-  } else if (const GlobalStart start = localizer.start_anywhere(first_scan_with_returns(run));
-             start != GlobalStart::Started) {
-    result.status = start == GlobalStart::NoReturns ? Localization::Status::NoReturns
-                                                    : Localization::Status::NoFreeSpace;
-    return result;
-  }
-  OdometryFeed odometry(task.odometry, params.odometry);
-  const std::size_t snapshot_every = run.steps.size() / kSnapshots + 1;
-  for (std::size_t i = 0; i < run.steps.size(); ++i) {
-    const RunStep& step = run.steps[i];
-    result.steps.push_back(localizer.step(step.scan, odometry.odom_from_robot(step)));
-    if (i % snapshot_every == 0) {
-      result.snapshots.push_back(snapshot_of(localizer.particles(), i, params.localizer.seed));
-    }
-    if (progress) {
-      progress(i + 1);
-    }
-  }
-  return result;
-}
 
 StepReport report_of(std::size_t step, double time_s, const Sim2& sketch_from_robot) {
   StepReport report;
@@ -140,11 +85,18 @@ Localization chain(const Sketch& sketch, const Run& run, const LocalizationTask&
 
 }  // namespace
 
+void validate(const SmoothingPlan& plan) {
+  validate_part("keyframes", plan.keyframes);
+  validate_part("smoothing", plan.smoothing);
+  require_in_range("max_modes", plan.max_modes, 1, 16);
+}
+
 void validate(const LocalizationParams& params) {
   validate_part("localizer", params.localizer);
   validate_part("odometry", params.odometry);
   validate_part("predictor", params.predictor);
   require_at_least("chain_way_m", params.chain_way_m, 0.0);
+  validate_part("smoothing", params.smoothing);
 }
 
 Localization localize(const Sketch& sketch, const Run& run, const LocalizationTask& task,
@@ -162,9 +114,14 @@ Localization localize(const Sketch& sketch, const Run& run, const LocalizationTa
     case Method::Chained:
       return chain(sketch, run, task, params, progress);
     case Method::Mcl:
-      return localize_by_filter(sketch, run, task, params, progress);
+      return task.smooth ? localize_and_smooth(sketch, run, task, params, progress)
+                         : filter_pass(sketch, run, task, params, progress);
   }
   return {};
+}
+
+std::size_t steps_of_work(const Run& run, const LocalizationTask& task) {
+  return (task.smooth ? 2 : 1) * run.steps.size();
 }
 
 std::optional<double> guess_px_per_m(const Sketch& sketch, const Eigen::Vector2d& place_in_sketch,

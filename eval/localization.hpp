@@ -13,6 +13,8 @@
 #include "registration/matched_odometry.hpp"
 #include "registration/network_predictor.hpp"
 #include "registration/odometry_feed.hpp"
+#include "smoothing/keyframes.hpp"
+#include "smoothing/smooth.hpp"
 
 namespace sketchloc {
 
@@ -23,11 +25,29 @@ enum class Method {
   Odometry  ///< dead reckoning from the start: what the others must beat
 };
 
+/// How a run is smoothed after the fact (docs/smoothing.md).
+struct SmoothingPlan {
+  KeyframeParams keyframes;
+  SmoothingParams smoothing;
+  int max_modes = 2;  ///< of each filter, registered at each keyframe, in [1, 16]
+};
+
+template <typename Visitor>
+void visit_fields(SmoothingPlan& plan, Visitor&& visit) {
+  visit("keyframes", plan.keyframes);
+  visit("smoothing", plan.smoothing);
+  visit("max_modes", plan.max_modes);
+}
+
+/// Throws std::invalid_argument naming the component and field, its range and its value.
+void validate(const SmoothingPlan& plan);
+
 struct LocalizationParams {
   LocalizerParams localizer;
   MatchedOdometryParams odometry;
   NetworkPredictorParams predictor;
   double chain_way_m = 0.5;  ///< between registrations of a chain; between them odometry, >= 0
+  SmoothingPlan smoothing;
 };
 
 template <typename Visitor>
@@ -36,6 +56,7 @@ void visit_fields(LocalizationParams& params, Visitor&& visit) {
   visit("odometry", params.odometry);
   visit("predictor", params.predictor);
   visit("chain_way_m", params.chain_way_m);
+  visit("smoothing", params.smoothing);
 }
 
 /// Throws std::invalid_argument naming the component and field, its range and its value.
@@ -47,6 +68,7 @@ struct LocalizationTask {
   std::optional<Sim2> start_sketch_from_robot =
       std::nullopt;                    ///< none: anywhere in the drawing; MCL only
   WarpPredictor* predictor = nullptr;  ///< registers scans; a chain needs one
+  bool smooth = false;                 ///< MCL with a predictor only
 };
 
 struct Localization {
@@ -60,13 +82,18 @@ struct Localization {
   Status status = Status::Done;
   std::vector<StepReport> steps;            ///< one per step of the run, if Done
   std::vector<ParticleSnapshot> snapshots;  ///< spread evenly over the run
+  std::vector<StepReport> filtered = {};    ///< where it was smoothed: the filter's own steps
+  KeyframeRun keyframes = {};               ///< what smoothing was made of
 };
 
-/// Localizes a whole run. `progress` hears the number of steps done after each one; it may throw
-/// to stop the work.
+/// Localizes a whole run. `progress` hears the number of steps done after each one, of
+/// steps_of_work() in all; it may throw to stop the work.
 Localization localize(const Sketch& sketch, const Run& run, const LocalizationTask& task,
                       const LocalizationParams& params = {},
                       const std::function<void(std::size_t)>& progress = {});
+
+/// A run that is smoothed is driven twice.
+std::size_t steps_of_work(const Run& run, const LocalizationTask& task);
 
 /// The local scale (px/m) at a place of the drawing, from how far a scan sees there and how far the
 /// drawing lets it see: the median ratio over the beams. None where no beam tells.

@@ -8,7 +8,7 @@ namespace sketchloc {
 
 std::span<const LocalizationMethod> localization_methods() {
   using enum RegistrationMethod;
-  static const std::array<LocalizationMethod, 9> kMethods = {
+  static const std::array<LocalizationMethod, 10> kMethods = {
       {{.name = "odometry", .method = Method::Odometry, .registration = {}},
        {.name = "icp", .method = Method::Chained, .registration = Icp},
        {.name = "affine", .method = Method::Chained, .registration = Affine},
@@ -17,6 +17,11 @@ std::span<const LocalizationMethod> localization_methods() {
        {.name = "mcl", .registration = {}},
        {.name = "mcl+measure", .registration = Ours, .measure = true},
        {.name = "mcl+propose", .registration = Ours, .propose = true},
+       {.name = "ours+smooth",
+        .registration = Ours,
+        .propose = true,
+        .measure = true,
+        .smooth = true},
        {.name = "ours", .registration = Ours, .propose = true, .measure = true}}};
   return kMethods;
 }

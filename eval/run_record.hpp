@@ -12,6 +12,7 @@
 #include "eval/run_metrics.hpp"
 #include "eval/sketch_errors.hpp"
 #include "filter/step_report.hpp"
+#include "smoothing/keyframe.hpp"
 
 namespace sketchloc {
 
@@ -46,6 +47,8 @@ struct RunRecord {
   Sketch sketch;
   Run run;                                  ///< may be empty: then no scans are shown
   std::vector<StepReport> steps;            ///< in the order of the run
+  std::vector<StepReport> filtered = {};    ///< of a run that was smoothed: the filter's own steps
+  KeyframeRun keyframes = {};               ///< what it was smoothed by
   std::vector<ParticleSnapshot> snapshots;  ///< steps increasing; may be empty
 
   std::optional<Reference> reference;

@@ -13,6 +13,7 @@
 #include "datasets/io/run_io.hpp"
 #include "datasets/io/trajectory_io.hpp"
 #include "datasets/sim/data_set.hpp"
+#include "eval/step_table.hpp"
 #include "motion/angles.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/shared_data.hpp"
@@ -107,6 +108,40 @@ TEST_F(LocalizeCommandEndToEnd, WritesAFolderOfResults) {
   EXPECT_THROW(read_tum(out / "trajectory.tum"), std::runtime_error);  // no metres
   EXPECT_THAT(content_of(out / "metrics.json"), HasSubstr("\"share_within_2_m\""));
   EXPECT_THAT(content_of(out / "report.html"), HasSubstr("home &amp; &lt;garden&gt;.pgm"));
+}
+
+TEST_F(LocalizeCommandEndToEnd, SmoothsARunAndSmoothsItAgainFromItsFolder) {
+  const fs::path out = outputs_ / "smoothed";
+  std::vector<std::string> more = with_reference();
+  more.insert(more.end(), {"--method", "ours", "--smooth"});
+  const CommandResult result = localize(out, more);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_GT(fs::file_size(out / "filtered.csv"), 0U);
+  const std::vector<StepReport> smoothed = read_step_table(out / "trajectory.csv");
+  EXPECT_EQ(read_step_table(out / "filtered.csv").size(), smoothed.size());
+  const fs::path anew = outputs_ / "anew";
+  const CommandResult again =
+      testing::run_command({SKETCHLOC_PROGRAM, "smooth", out.string(), "--out", anew.string()});
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  for (const StepReport& keyframe : read_step_table(anew / "trajectory.csv")) {
+    const Sim2& same = smoothed.at(keyframe.step).estimate.sketch_from_robot;
+    EXPECT_NEAR(keyframe.estimate.sketch_from_robot.x(), same.x(), 1e-3);
+    EXPECT_NEAR(keyframe.estimate.sketch_from_robot.y(), same.y(), 1e-3);
+  }
+}
+
+TEST_F(LocalizeCommandEndToEnd, SaysWhatSmoothingNeeds) {
+  std::vector<std::string> more = with_reference();
+  more.insert(more.end(), {"--method", "mcl", "--smooth"});
+  const CommandResult alone = localize(outputs_ / "alone", more);
+  EXPECT_EQ(alone.exit_code, 2);
+  EXPECT_THAT(alone.err, HasSubstr("--method ours"));
+  const CommandResult missing = testing::run_command(
+      {SKETCHLOC_PROGRAM, "smooth", outputs_.path().string(), "--out", outputs_ / "none"});
+  EXPECT_EQ(missing.exit_code, 1);
+  EXPECT_THAT(missing.err, HasSubstr("sketchloc localize --smooth"));
+  EXPECT_EQ(
+      testing::run_command({SKETCHLOC_PROGRAM, "smooth", "--out", outputs_ / "none"}).exit_code, 2);
 }
 
 TEST_F(LocalizeCommandEndToEnd, GivesTheSameTrajectoryForTheSameSeed) {
@@ -282,7 +317,8 @@ TEST_F(LocalizeCommandEndToEnd, NamesTheFlagWhereAValueMakesNoSense) {
     return result.err;
   };
   EXPECT_THAT(message({"--seed", "-1"}), HasSubstr("--seed: must be a whole number, 0 or more"));
-  EXPECT_THAT(message({"--method", "foo"}), HasSubstr("mcl+propose or ours, but it is 'foo'"));
+  EXPECT_THAT(message({"--method", "foo"}),
+              HasSubstr("mcl+propose, ours+smooth or ours, but it is 'foo'"));
   EXPECT_THAT(message({"--max-range-m", "0"}),
               HasSubstr("must be a number above 0, but it is '0'"));
   EXPECT_THAT(message({"--start", ""}), HasSubstr("--start must be X,Y,HEADING_DEG"));

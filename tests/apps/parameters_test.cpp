@@ -27,14 +27,13 @@ namespace {
 /// Every parameter struct that a command reads, the ones inside others by themselves.
 template <typename T>
 class Parameters : public ::testing::Test {};
-using ParameterStructs =
-    ::testing::Types<OdometryNoise, PersonParams, DriveParams, LidarModel, OdometryModel,
-                     MapReadingParams, PredictParams, BeamModelParams, EndPointModelParams,
-                     KldParams, ModeParams, MotionGate, StartSpread, RecoveryParams,
-                     RangeTableParams, MatchedOdometryParams, LocalizerParams, LocalizationParams,
-                     GenerateParams, SceneParams, PriorError, SampleParams, SampleSourceParams,
-                     IcpParams, RecentScansParams, RegistrationSuiteParams, RegistrationSetParams,
-                     NetworkPredictorParams>;
+using ParameterStructs = ::testing::Types<
+    OdometryNoise, PersonParams, DriveParams, LidarModel, OdometryModel, MapReadingParams,
+    PredictParams, BeamModelParams, EndPointModelParams, KldParams, ModeParams, MotionGate,
+    StartSpread, RecoveryParams, RangeTableParams, MatchedOdometryParams, LocalizerParams,
+    LocalizationParams, GenerateParams, SceneParams, PriorError, SampleParams, SampleSourceParams,
+    IcpParams, RecentScansParams, RegistrationSuiteParams, RegistrationSetParams,
+    NetworkPredictorParams, KeyframeParams, DrawingWalk, SmoothingParams, SmoothingPlan>;
 TYPED_TEST_SUITE(Parameters, ParameterStructs);
 
 template <ParameterStruct T>

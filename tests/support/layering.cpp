@@ -22,9 +22,9 @@ struct Folder {
 };
 
 const std::vector<std::string> kAllButApps = {
-    "motion",       "motion/graph",       "datasets", "datasets/io",   "datasets/sim",
-    "registration", "registration/train", "filter",   "filter/online", "planning",
-    "topology"};
+    "motion",        "motion/graph", "datasets",           "datasets/io",
+    "datasets/sim",  "registration", "registration/train", "filter",
+    "filter/online", "planning",     "smoothing",          "topology"};
 
 std::vector<std::string> all_but_apps_and(std::initializer_list<std::string> more) {
   std::vector<std::string> folders = kAllButApps;
@@ -46,6 +46,7 @@ const std::vector<Folder>& floor_plan() {
       {"filter", {"motion", "datasets", "registration"}, {"highway"}},
       {"filter/online", {"motion", "datasets", "registration", "filter"}, {}},
       {"planning", {"motion", "datasets", "registration"}, {"ompl"}},
+      {"smoothing", {"motion", "motion/graph", "datasets", "registration"}, {}},
       {"topology", {"motion", "motion/graph", "datasets", "registration"}, {}},
       {"eval", kAllButApps, {"opencv", "json"}},
       {"eval/bench", all_but_apps_and({"eval", "tests"}), {"benchmark", "highway"}},
