@@ -16,12 +16,13 @@ void add_ablate_command(CLI::App& program) {
   const auto option = [&](const std::string& flag, auto& value, const std::string& help) {
     return command->add_option(flag, value, help)->group(kAlgorithmGroup);
   };
-  option(
-      "--suite", options->suite,
-      "registration: one submap, one prior, one pose; filter: whole simulated runs; robust: the "
-      "same with what may go wrong; real: the runs of --set alone; topology: labelled runs of "
-      "--set TRAJECTORY.tum,LABELS.csv,REFERENCE.tum[,NAME]; planning: ways in simulated drawings")
-      ->check(CLI::IsMember({"registration", "filter", "robust", "real", "topology", "planning"}))
+  option("--suite", options->suite,
+         "registration: one submap, one prior, one pose; filter: whole simulated runs; robust: the "
+         "same with what may go wrong; real: the runs of --set alone; topology: labelled runs of "
+         "--set TRAJECTORY.tum,LABELS.csv,REFERENCE.tum[,NAME]; planning: ways in simulated "
+         "drawings; navigation: drives to goals in them")
+      ->check(CLI::IsMember(
+          {"registration", "filter", "robust", "real", "topology", "planning", "navigation"}))
       ->capture_default_str();
   option("--methods", options->methods,
          "Rows (default all). registration: ours, chen20, affine, icp, none (keep the prior); the "
@@ -54,6 +55,8 @@ void add_ablate_command(CLI::App& program) {
       run_topology_suite(*options);
     } else if (options->suite == "planning") {
       run_planning_suite(*options);
+    } else if (options->suite == "navigation") {
+      run_navigation_suite(*options);
     } else {
       run_filter_suite(*options);
     }

@@ -14,6 +14,7 @@
 #include "datasets/sketch.hpp"
 #include "eval/filter_suite.hpp"
 #include "eval/localization.hpp"
+#include "eval/navigation.hpp"
 #include "eval/planning_suite.hpp"
 #include "eval/predictors.hpp"
 #include "eval/registration_suite.hpp"
@@ -43,6 +44,8 @@ struct AblateParams {
   TopologySuiteParams topology_suite;
   PlanParams planning;
   PlanningSuiteParams planning_suite;
+  NavigationParams navigation;
+  NavigationSuiteParams navigation_suite;
 };
 
 template <typename Visitor>
@@ -54,6 +57,8 @@ void visit_fields(AblateParams& params, Visitor&& visit) {
   visit("topology_suite", params.topology_suite);
   visit("planning", params.planning);
   visit("planning_suite", params.planning_suite);
+  visit("navigation", params.navigation);
+  visit("navigation_suite", params.navigation_suite);
 }
 
 /// What people may set, and what run.yaml records: all but what the rows of the filter suites
@@ -95,6 +100,7 @@ RunDescription description_of(const AblateOptions& options, const ConfigNode& pa
 std::vector<std::string> split_text(const std::string& text, char at);
 
 /// The suites.
+void run_navigation_suite(const AblateOptions& options);
 void run_planning_suite(const AblateOptions& options);
 void run_topology_suite(const AblateOptions& options);
 void run_registration_suite(const AblateOptions& options);

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "eval/filter_pass.hpp"
+#include "eval/robot_finder.hpp"
 #include "eval/smoothed_localization.hpp"
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
 #include "registration/ray_caster.hpp"
-#include "registration/recent_scans.hpp"
 
 namespace sketchloc {
 namespace {
@@ -54,28 +54,13 @@ Localization chain(const Sketch& sketch, const Run& run, const LocalizationTask&
     result.status = Localization::Status::NoStart;
     return result;
   }
-  const SketchCropper cropper(sketch);
-  RecentScans recent(params.localizer.fusion.recent);
+  RegistrationChain links(sketch, *task.predictor, params, *task.start_sketch_from_robot);
   OdometryFeed odometry(task.odometry, params.odometry);
-  Sim2 sketch_from_robot = *task.start_sketch_from_robot;
-  std::optional<Se2> last_odom_from_robot;
-  double way_m = 0.0;
   for (std::size_t i = 0; i < run.steps.size(); ++i) {
     const Scan& scan = run.steps[i].scan;
-    const Se2 odom_from_robot = odometry.odom_from_robot(run.steps[i]);
-    const Se2 step = last_odom_from_robot.value_or(odom_from_robot).inverse() * odom_from_robot;
-    last_odom_from_robot = odom_from_robot;
-    sketch_from_robot = sketch_from_robot * step;
-    way_m += step.translation().norm();
-    recent.add(scan, odom_from_robot);
-    std::optional<Registration> found;
-    if ((i == 0 || way_m >= params.chain_way_m) && !end_points_in_robot(scan).empty()) {
-      found = task.predictor->predict(recent.placed(), cropper, {&sketch_from_robot, 1}).front();
-      way_m = 0.0;
-    }
-    sketch_from_robot = found ? found->sketch_from_robot : sketch_from_robot;
-    result.steps.push_back(report_of(i, scan.time_s, sketch_from_robot));
-    result.steps.back().registered = found.has_value();
+    const bool registered = links.step(scan, odometry.odom_from_robot(run.steps[i]));
+    result.steps.push_back(report_of(i, scan.time_s, links.sketch_from_robot()));
+    result.steps.back().registered = registered;
     if (progress) {
       progress(i + 1);
     }

@@ -13,11 +13,11 @@ namespace sketchloc {
 
 struct PlanParams {
   Objective objective = Objective::Balanced;
-  BodyParams body;
+  BodyParams body{};
   double move_ends_m = 0.0;  ///< a start or goal that is not free may be moved this far, >= 0
   /// Strokes may be crossed where there is no other way, at the cost of so many metres: doors are
   /// drawn shut. None: never. Walls that were forgotten cannot be known.
-  std::optional<double> crossing_cost_m;
+  std::optional<double> crossing_cost_m = std::nullopt;
   int tree_nodes = 1000;     ///< tries of the random trees before the grid is searched, >= 0
   int improvements = 20000;  ///< tries to improve the way at most, >= 0
 };

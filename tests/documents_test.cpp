@@ -113,8 +113,8 @@ std::string help_of(const std::string& subcommand, const std::string& what) {
 }
 
 std::vector<std::string> subcommands() {
-  return {"demo", "localize", "track",    "register", "smooth", "topology",
-          "plan", "ablate",   "evaluate", "generate", "convert"};
+  return {"demo", "localize", "track",  "register", "smooth",   "topology",
+          "plan", "navigate", "ablate", "evaluate", "generate", "convert"};
 }
 
 /// The flags of a subcommand, and the names in its parameters (which --help does not list).
