@@ -38,6 +38,14 @@ Json json_of(const Keyframe& keyframe) {
   return json;
 }
 
+Json json_of(const KeyframePair& pair) {
+  const Se2& pose = pair.earlier_from_later;
+  return {{"earlier", pair.earlier},
+          {"later", pair.later},
+          {"earlier_from_later", {pose.x_m(), pose.y_m(), pose.yaw_rad()}},
+          {"probability", pair.probability}};
+}
+
 std::vector<double> numbers(const Json& json, std::size_t count) {
   std::vector<double> values = json.get<std::vector<double>>();
   if (values.size() != count) {
@@ -95,11 +103,30 @@ Keyframe keyframe_of(const Json& json) {
   return keyframe;
 }
 
+KeyframePair pair_of(const Json& json, const KeyframeRun& run) {
+  const std::vector<double> pose = numbers(json.at("earlier_from_later"), 3);
+  const KeyframePair pair{.earlier = json.at("earlier").get<std::size_t>(),
+                          .later = json.at("later").get<std::size_t>(),
+                          .earlier_from_later = Se2::from_xy_yaw(pose[0], pose[1], pose[2]),
+                          .probability = json.at("probability").get<double>()};
+  if (pair.earlier >= pair.later || pair.later >= run.keyframes.size()) {
+    throw std::runtime_error("expected two keyframes of the lines before, the earlier one first");
+  }
+  if (!(pair.probability > 0.0 && pair.probability < 1.0)) {
+    throw std::runtime_error("expected a probability between 0 and 1");
+  }
+  return pair;
+}
+
 void add_line(KeyframeRun& run, const std::string& line, bool is_first) {
   const Json json = Json::parse(line);
   if (is_first) {
     const Json& start = json.at("start_sketch_from_robot");
     run.start_sketch_from_robot = start.is_null() ? std::nullopt : std::optional(sim2_of(start));
+    return;
+  }
+  if (json.contains("earlier_from_later")) {
+    run.pairs.push_back(pair_of(json, run));
     return;
   }
   run.keyframes.push_back(keyframe_of(json));
@@ -119,6 +146,9 @@ std::string to_jsonl(const KeyframeRun& run) {
       "\n";
   for (const Keyframe& keyframe : run.keyframes) {
     text += json_of(keyframe).dump() + "\n";
+  }
+  for (const KeyframePair& pair : run.pairs) {
+    text += json_of(pair).dump() + "\n";
   }
   return text;
 }

@@ -73,6 +73,7 @@ Localization chain(const Sketch& sketch, const Run& run, const LocalizationTask&
 void validate(const SmoothingPlan& plan) {
   validate_part("keyframes", plan.keyframes);
   validate_part("smoothing", plan.smoothing);
+  validate_part("place_pairs", plan.place_pairs);
   require_in_range("max_modes", plan.max_modes, 1, 16);
 }
 

@@ -8,6 +8,7 @@
 
 #include "datasets/run.hpp"
 #include "datasets/sketch.hpp"
+#include "eval/place_pairs.hpp"
 #include "eval/run_record.hpp"
 #include "filter/localizer.hpp"
 #include "registration/matched_odometry.hpp"
@@ -29,7 +30,9 @@ enum class Method {
 struct SmoothingPlan {
   KeyframeParams keyframes;
   SmoothingParams smoothing;
-  int max_modes = 2;  ///< of each filter, registered at each keyframe, in [1, 16]
+  int max_modes = 2;    ///< of each filter, registered at each keyframe, in [1, 16]
+  bool places = false;  ///< keyframes of one place, told by the building's topology, are tied
+  PlacePairParams place_pairs;
 };
 
 template <typename Visitor>
@@ -37,6 +40,8 @@ void visit_fields(SmoothingPlan& plan, Visitor&& visit) {
   visit("keyframes", plan.keyframes);
   visit("smoothing", plan.smoothing);
   visit("max_modes", plan.max_modes);
+  visit("places", plan.places);
+  visit("place_pairs", plan.place_pairs);
 }
 
 /// Throws std::invalid_argument naming the component and field, its range and its value.

@@ -114,6 +114,10 @@ Localization localize_and_smooth(const Sketch& sketch, const Run& run, const Loc
   result.keyframes =
       registered_keyframes(refined, modes_of(result.steps, back, params.smoothing.max_modes),
                            sketch, task, params.smoothing.keyframes);
+  if (params.smoothing.places) {
+    result.keyframes.pairs =
+        place_pairs(refined, result.keyframes.keyframes, params.smoothing.place_pairs);
+  }
   const SmoothedRun smoothed = smooth(result.keyframes, params.smoothing.smoothing);
   if (smoothed.status == SmoothedRun::Status::Done) {
     result.filtered = result.steps;

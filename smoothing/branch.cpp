@@ -179,15 +179,68 @@ void weigh(const std::vector<Stage>& stages, double start_elsewhere, const Smoot
   }
 }
 
+/// What the other keyframe of a pair says of each hypothesis of this one, against the pair's being
+/// wrong: the more, the likelier the other's hypotheses are that lie beside it.
+Logs told_by_pair(const KeyframeRun& run, const KeyframePair& pair, std::size_t of,
+                  const Branch& branch, const SmoothingParams& params) {
+  const std::size_t other = of == pair.later ? pair.earlier : pair.later;
+  const Se2 other_from_this =
+      of == pair.later ? pair.earlier_from_later : pair.earlier_from_later.inverse();
+  const std::vector<PoseHypothesis>& here = run.keyframes[of].hypotheses;
+  const std::vector<PoseHypothesis>& there = run.keyframes[other].hypotheses;
+  Logs told(static_cast<Eigen::Index>(here.size()));
+  for (std::size_t j = 0; j < here.size(); ++j) {
+    double beside = 0.0;
+    for (std::size_t i = 0; i < there.size(); ++i) {
+      const Eigen::Vector4d error =
+          error_between(there[i].sketch_from_robot * other_from_this, here[j].sketch_from_robot);
+      const Eigen::Matrix4d covariance =
+          pair_covariance(params) + there[i].covariance + here[j].covariance;
+      beside +=
+          branch.probability[other][i] * std::exp(-0.5 * error.dot(covariance.llt().solve(error)));
+    }
+    told[static_cast<Eigen::Index>(j)] =
+        std::log1p(pair.probability * std::min(beside, 1.0) / (1.0 - pair.probability));
+  }
+  return told;
+}
+
+/// The stages with what pairs say, as far as each keyframe is known by now. Neighbouring keyframes
+/// of two passes make as many pairs that err together, so they count like registrations.
+std::vector<Stage> with_pairs(std::vector<Stage> stages, const KeyframeRun& run,
+                              const Branch& branch, const SmoothingParams& params) {
+  std::vector<Stage*> stage_of(run.keyframes.size(), nullptr);
+  for (Stage& stage : stages) {
+    stage_of[stage.keyframe] = &stage;
+  }
+  for (const KeyframePair& pair : run.pairs) {
+    if (stage_of[pair.earlier] == nullptr || stage_of[pair.later] == nullptr) {
+      continue;
+    }
+    for (const std::size_t keyframe : {pair.earlier, pair.later}) {
+      stage_of[keyframe]->evidence +=
+          params.independent_share * told_by_pair(run, pair, keyframe, branch, params);
+    }
+  }
+  return stages;
+}
+
 }  // namespace
 
 Branch find_branch(const KeyframeRun& run, const SmoothingParams& params) {
   Branch branch{.chosen = std::vector<std::optional<std::size_t>>(run.keyframes.size()),
                 .probability = std::vector<std::vector<double>>(run.keyframes.size())};
-  const std::vector<Stage> stages = stages_of(run, params);
-  if (!stages.empty()) {
+  const std::vector<Stage> alone = stages_of(run, params);
+  if (alone.empty()) {
+    return branch;
+  }
+  const auto decide = [&](const std::vector<Stage>& stages) {
     choose(stages, branch);
     weigh(stages, run.start_sketch_from_robot ? 0.0 : params.start_elsewhere, params, branch);
+  };
+  decide(alone);
+  for (int round = 0; round < params.pair_rounds && !run.pairs.empty(); ++round) {
+    decide(with_pairs(alone, run, branch, params));
   }
   return branch;
 }

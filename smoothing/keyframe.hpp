@@ -28,10 +28,20 @@ struct Keyframe {
   std::vector<PoseHypothesis> hypotheses = {};  ///< none where nothing could be registered
 };
 
+/// Two keyframes that are beside each other by something that knows nothing of the drawing, such as
+/// the topology of the building.
+struct KeyframePair {
+  std::size_t earlier = 0;  ///< index of a keyframe
+  std::size_t later = 0;
+  Se2 earlier_from_later = {};  ///< metres
+  double probability = 0.5;     ///< that they are, in (0, 1)
+};
+
 /// What smoothing knows of a run.
 struct KeyframeRun {
   std::optional<Sim2> start_sketch_from_robot = std::nullopt;  ///< at the first keyframe, if given
   std::vector<Keyframe> keyframes = {};
+  std::vector<KeyframePair> pairs = {};
 };
 
 }  // namespace sketchloc

@@ -79,6 +79,17 @@ void add_registrations(PoseGraph& graph, const KeyframeRun& run, const Smoothing
   }
 }
 
+/// Pairs behind the kernel: the drawing is one and the same at both passes.
+void add_pairs(PoseGraph& graph, const KeyframeRun& run, const SmoothingParams& params) {
+  for (const KeyframePair& pair : run.pairs) {
+    GraphEdge edge = between_edge(
+        pair.earlier, pair.later, Sim2::from_se2(pair.earlier_from_later),
+        params.independent_share * pair.probability * symmetric_inverse(pair_covariance(params)));
+    edge.may_be_wrong = true;
+    graph.edges.push_back(edge);
+  }
+}
+
 /// The probability of the hypotheses of a keyframe that are where the pose is.
 double probability_of(const Sim2& sketch_from_robot, const Keyframe& keyframe,
                       const std::vector<double>& probability) {
@@ -125,6 +136,7 @@ PoseGraph branch_graph(const KeyframeRun& run, const Branch& branch,
   }
   add_odometry(graph, run, params);
   add_registrations(graph, run, params);
+  add_pairs(graph, run, params);
   return graph;
 }
 

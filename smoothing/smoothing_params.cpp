@@ -27,6 +27,10 @@ void validate(const SmoothingParams& params) {
   require_above("min_position_m", params.min_position_m, 0.0);
   require_above("min_heading_rad", params.min_heading_rad, 0.0);
   require_above("min_log_scale", params.min_log_scale, 0.0);
+  require_above("pair_position_m", params.pair_position_m, 0.0);
+  require_above("pair_heading_rad", params.pair_heading_rad, 0.0);
+  require_above("pair_log_scale", params.pair_log_scale, 0.0);
+  require_at_least("pair_rounds", params.pair_rounds, 0.0);
   validate_part("kernel", params.kernel);
   require_no_graduation(params.kernel);
 }
@@ -34,6 +38,13 @@ void validate(const SmoothingParams& params) {
 Eigen::Matrix4d start_covariance(const SmoothingParams& params) {
   return Eigen::Vector4d(params.start_position_m, params.start_position_m, params.start_heading_rad,
                          params.start_log_scale)
+      .cwiseAbs2()
+      .asDiagonal();
+}
+
+Eigen::Matrix4d pair_covariance(const SmoothingParams& params) {
+  return Eigen::Vector4d(params.pair_position_m, params.pair_position_m, params.pair_heading_rad,
+                         params.pair_log_scale)
       .cwiseAbs2()
       .asDiagonal();
 }

@@ -50,6 +50,10 @@ struct SmoothingParams {
   double min_position_m = 0.05;   ///< what no registration tells, 1-sigma, > 0
   double min_heading_rad = 0.02;  ///< > 0
   double min_log_scale = 0.02;    ///< > 0
+  double pair_position_m = 0.4;   ///< of the places of a pair, 1-sigma, > 0
+  double pair_heading_rad = 0.1;  ///< > 0
+  double pair_log_scale = 0.15;   ///< > 0
+  int pair_rounds = 3;  ///< of telling both keyframes of a pair what the other knows, >= 0
   RobustKernel kernel{.shape = KernelShape::Dcs, .width = 1.7};  ///< of registrations
 };
 
@@ -69,11 +73,18 @@ void visit_fields(SmoothingParams& params, Visitor&& visit) {
   visit("min_position_m", params.min_position_m);
   visit("min_heading_rad", params.min_heading_rad);
   visit("min_log_scale", params.min_log_scale);
+  visit("pair_position_m", params.pair_position_m);
+  visit("pair_heading_rad", params.pair_heading_rad);
+  visit("pair_log_scale", params.pair_log_scale);
+  visit("pair_rounds", params.pair_rounds);
   visit("kernel", params.kernel);
 }
 
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const SmoothingParams& params);
+
+/// Covariance of (x m, y m, heading rad, log scale) between the places of a pair.
+Eigen::Matrix4d pair_covariance(const SmoothingParams& params);
 
 /// Covariance of (x m, y m, heading rad, log scale) of a start that was given.
 Eigen::Matrix4d start_covariance(const SmoothingParams& params);

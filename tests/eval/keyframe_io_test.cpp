@@ -27,6 +27,10 @@ KeyframeRun small_run() {
       {.sketch_from_robot = Sim2::from_xy_yaw_scale(10.0, 20.0, -1.0, 25.0),
        .covariance = covariance,
        .inlier_probability = 0.7}};
+  run.pairs = {{.earlier = 0,
+                .later = 1,
+                .earlier_from_later = Se2::from_xy_yaw(0.3, -0.1, 3.0),
+                .probability = 0.9}};
   return run;
 }
 

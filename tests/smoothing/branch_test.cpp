@@ -52,6 +52,22 @@ TEST(Branch, ChangesThePastWhereTheFutureSaysSo) {
   EXPECT_GT(branch.probability[5][1], branch.probability[5][0]);
 }
 
+TEST(Branch, BelievesAPairOfKeyframesThatAreOnePlace) {
+  // The robot comes back to where it was: then the lower corridor was likelier, now the upper one.
+  KeyframeRun run = two_corridors(12, 0.95, 0.3);
+  const KeyframeRun back = two_corridors(12, 0.3, 0.9);
+  for (std::size_t k = 0; k < 12; ++k) {
+    run.keyframes.push_back(back.keyframes[k]);
+    run.keyframes.back().step += 12;
+    run.pairs.push_back({.earlier = k, .later = 12 + k, .probability = 0.9});
+  }
+  const SmoothingParams alone{.pair_rounds = 0};
+  EXPECT_THAT(find_branch(run, alone).chosen[20], Optional(std::size_t{1}));
+  const Branch together = find_branch(run, {});
+  EXPECT_THAT(together.chosen, Each(Optional(std::size_t{0})));
+  EXPECT_GT(together.probability[20][0], find_branch(run, alone).probability[20][0]);
+}
+
 TEST(Branch, JumpsWhereTheEvidenceOutweighsIt) {
   KeyframeRun run = two_corridors(80, 0.05, 0.9);
   for (std::size_t k = 0; k < 40; ++k) {
