@@ -3,6 +3,7 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,14 @@ class MeanLoss {
   int count_ = 0;
 };
 
+std::optional<FoldedNetwork> trained(const RegistrationLearning& learning) {
+  if (learning.from.empty()) {
+    return std::nullopt;
+  }
+  const int cells = learning.source.sample.window().cells;
+  return network_of_onnx(plan_network(learning.kind, cells), learning.from);
+}
+
 class RegistrationTask final : public LearningTask {
  public:
   RegistrationTask(const RegistrationLearning& learning, const LearningPlan& plan)
@@ -51,14 +60,16 @@ class RegistrationTask final : public LearningTask {
         trainer_({.kind = learning.kind,
                   .window = learning.source.sample.window(),
                   .seed = plan.seed,
-                  .total_batches = batches_of(plan.samples, learning.source.batch)},
+                  .total_batches = batches_of(plan.samples, learning.source.batch),
+                  .from = trained(learning)},
                  plan.trainer) {}
 
   int samples_per_batch() const override { return learning_.source.batch; }
   std::uint64_t batches_learned() const override { return trainer_.batches_learned(); }
 
-  /// Priors are improved by the network of the curve's last point, so that going on from a
-  /// checkpoint gives the same samples as never having stopped.
+  /// Priors are improved by the network of the curve's last point (before it, by the one that this
+  /// one goes on from), so that going on from a checkpoint gives the same samples as never having
+  /// stopped.
   void go_on(const std::filesystem::path& point) override {
     const bool improves = improves_priors();
     if (source_ && !improves) {
@@ -66,7 +77,7 @@ class RegistrationTask final : public LearningTask {
     }
     SampleSource::Stream from = stream(SampleSplit::Training, trainer_.batches_learned());
     if (improves) {
-      from.improving_network = bytes_of(point);
+      from.improving_network = last_point() > 0 ? bytes_of(point) : learning_.from;
     }
     source_.reset();  // its threads end before others begin
     source_ = std::make_unique<SampleSource>(learning_.source, from, plan_.workers);
@@ -134,13 +145,17 @@ class RegistrationTask final : public LearningTask {
             .first_batch = first_batch};
   }
 
-  /// Whether the curve's last point is late enough.
-  bool improves_priors() const {
+  /// After how many samples the curve has its last point; 0: it has none.
+  std::uint64_t last_point() const {
     const std::uint64_t every = batches_of(plan_.validate_every, samples_per_batch());
-    const std::uint64_t last_point = trainer_.batches_learned() / every * every *
-                                     static_cast<std::uint64_t>(samples_per_batch());
-    return learning_.kind == NetworkKind::Ours && last_point > 0 &&
-           last_point >= learning_.improve_after;
+    return trainer_.batches_learned() / every * every *
+           static_cast<std::uint64_t>(samples_per_batch());
+  }
+
+  /// Whether there is a network that has learned enough to improve priors.
+  bool improves_priors() const {
+    const bool learned = last_point() > 0 && last_point() >= learning_.improve_after;
+    return learning_.kind == NetworkKind::Ours && (learned || !learning_.from.empty());
   }
 
   /// The same for all networks and seeds, in buildings of its own.

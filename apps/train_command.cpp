@@ -13,6 +13,7 @@
 #include "apps/parameter_options.hpp"
 #include "apps/place_task.hpp"
 #include "apps/program.hpp"
+#include "apps/read_bytes.hpp"
 #include "apps/registration_task.hpp"
 #include "apps/training_sitting.hpp"
 #include "registration/network_predictor.hpp"
@@ -53,6 +54,7 @@ struct TrainOptions {
   std::uint64_t seed = 1;
   std::uint64_t validate_every = 50'000;
   int validation_batches = 16;
+  fs::path from;
   fs::path out;
   bool resume = false;
   bool force = false;
@@ -78,8 +80,16 @@ void require_halvings(const char* name, int cells, int divisor) {
   }
 }
 
+std::string trained_network(const fs::path& file) {
+  return file.empty() ? std::string() : bytes_of(file);
+}
+
 std::unique_ptr<LearningTask> task_of(const TrainOptions& options, const TrainParams& params) {
   const LearningPlan plan = learning_plan(options, params);
+  if (!options.from.empty() && !kRegistrationKinds.contains(options.network)) {
+    throw std::invalid_argument("--from is for chen20, affine and ours; " + options.network +
+                                " begins anew");
+  }
   if (options.network == kPlaces) {
     require_halvings("places.look.window.cells", params.places.look.window.cells, 16);
     return make_label_task(params.places, plan);
@@ -90,7 +100,8 @@ std::unique_ptr<LearningTask> task_of(const TrainOptions& options, const TrainPa
   require_halvings("source.sample.cells", params.source.sample.cells, 32);
   return make_registration_task({.kind = kRegistrationKinds.at(options.network),
                                  .source = params.source,
-                                 .improve_after = params.improve_after},
+                                 .improve_after = params.improve_after,
+                                 .from = trained_network(options.from)},
                                 plan);
 }
 
@@ -99,6 +110,7 @@ TrainingSittingPlan sitting_plan(const TrainOptions& options, const TrainParams&
           .made_by = {.command = "train",
                       .seed = options.seed,
                       .inputs = {{"network", options.network},
+                                 {"from", options.from.string()},
                                  {"samples", std::to_string(options.samples)},
                                  {"validate-every", std::to_string(options.validate_every)},
                                  {"threads", std::to_string(options.threads)}},
@@ -131,6 +143,12 @@ void add_algorithm_options(CLI::App& command, TrainOptions& options) {
          "chen20, affine or ours: register scans; places: tells kinds of places; same-place: "
          "compares places")
       ->check(CLI::IsMember(network_names()));
+  command
+      .add_option("--from", options.from,
+                  "network.onnx of that kind to go on from, with a new course of the learning rate")
+      ->check(CLI::ExistingFile)
+      ->type_name("FILE")
+      ->group(kAlgorithmGroup);
   count("--samples", options.samples, "To learn from in all");
   count("--stop-after", options.stop_after, "End this sitting there; 0: at --samples");
   option("--seed", options.seed, "Of the samples and of the network's first numbers");

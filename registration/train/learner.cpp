@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "motion/validate.hpp"
 
@@ -42,10 +43,17 @@ torch::Tensor view(const std::vector<float>& values, const std::vector<std::int6
 }
 
 Learner::Learner(const NetworkPlan& plan, const TrainerParams& params, const Course& course)
+    : Learner(TorchNetwork(seeded(plan, course.seed)), TorchNetwork(plan), params, course) {}
+
+Learner::Learner(const FoldedNetwork& trained, const TrainerParams& params, const Course& course)
+    : Learner(TorchNetwork(trained), TorchNetwork(trained), params, course) {}
+
+Learner::Learner(TorchNetwork network, TorchNetwork average, const TrainerParams& params,
+                 const Course& course)
     : params_(params),
       course_(course),
-      network_(seeded(plan, course.seed)),
-      average_(plan),
+      network_(std::move(network)),
+      average_(std::move(average)),
       optimizer_(network_.parameters(), torch::optim::AdamOptions(params.learning_rate)) {
   put_channels_last(network_);
   put_channels_last(average_);
@@ -108,7 +116,7 @@ void Learner::restore(const std::string& checkpoint) try {
   put_channels_last(network_);
   put_channels_last(average_);
 } catch (const c10::Error&) {
-  throw std::runtime_error("not a checkpoint of this network; was it another --network?");
+  throw std::runtime_error("not a checkpoint of this network; was it another --network or --from?");
 }
 
 void Learner::set_learning_rate() {

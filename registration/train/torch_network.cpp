@@ -4,7 +4,10 @@
 
 #include <cmath>
 #include <span>
+#include <string>
+#include <utility>
 
+#include "motion/check.hpp"
 #include "registration/correlation.hpp"
 
 namespace sketchloc::detail {
@@ -30,8 +33,15 @@ Folded fold(const torch::Tensor& weights, const Norm& norm) {
           .bias = numbers(norm->bias - norm->running_mean * scale)};
 }
 
+/// Layer by layer: with its normalisation folded in where there is one.
+template <typename Layer, typename Norm>
+Folded folded_numbers(const Layer& layer, const Norm& norm) {
+  return norm ? fold(layer->weight, norm)
+              : Folded{.weights = numbers(layer->weight), .bias = numbers(layer->bias)};
+}
+
 Convolution folded(const NormalisedConvolution& layer) {
-  Folded result = fold(layer.convolution->weight, layer.norm);
+  Folded result = folded_numbers(layer.convolution, layer.norm);
   return {.plan = layer.plan,
           .relu = true,
           .weights = std::move(result.weights),
@@ -43,12 +53,7 @@ Residual folded(const NormalisedResidual& layer) {
 }
 
 Linear folded(const NormalisedLinear& layer) {
-  if (!layer.plan.hidden) {
-    return {.plan = layer.plan,
-            .weights = numbers(layer.linear->weight),
-            .bias = numbers(layer.linear->bias)};
-  }
-  Folded result = fold(layer.linear->weight, layer.norm);
+  Folded result = folded_numbers(layer.linear, layer.norm);
   return {.plan = layer.plan, .weights = std::move(result.weights), .bias = std::move(result.bias)};
 }
 
@@ -59,8 +64,41 @@ Match folded(const NormalisedMatch& layer) {
   return {.plan = layer.plan, .scan = encoder(layer.scan), .drawing = encoder(layer.drawing)};
 }
 
+void put(torch::Tensor target, const std::vector<float>& values) {
+  check(target.numel() == static_cast<std::int64_t>(values.size()), "numbers of the same plan");
+  const torch::NoGradGuard no_gradients;
+  target.copy_(torch::from_blob(const_cast<float*>(values.data()), target.sizes()));
+}
+
+void put(NormalisedConvolution& layer, const Convolution& numbers) {
+  put(layer.convolution->weight, numbers.weights);
+  put(layer.convolution->bias, numbers.bias);
+}
+
+void put(NormalisedResidual& layer, const Residual& numbers) {
+  put(layer.first, numbers.first);
+  put(layer.second, numbers.second);
+}
+
+void put(NormalisedEncoder& layer, const Encoder& numbers) {
+  put(layer.first, numbers.first);
+  put(layer.second, numbers.second);
+  put(layer.third, numbers.third);
+}
+
+void put(NormalisedMatch& layer, const Match& numbers) {
+  put(layer.scan, numbers.scan);
+  put(layer.drawing, numbers.drawing);
+}
+
+void put(NormalisedLinear& layer, const Linear& numbers) {
+  put(layer.linear->weight, numbers.weights);
+  put(layer.linear->bias, numbers.bias);
+}
+
 torch::Tensor normalised(NormalisedConvolution& layer, const torch::Tensor& values) {
-  return layer.norm->forward(layer.convolution->forward(values));
+  const torch::Tensor result = layer.convolution->forward(values);
+  return layer.norm ? layer.norm->forward(result) : result;
 }
 
 torch::Tensor pass(NormalisedConvolution& layer, const torch::Tensor& values) {
@@ -144,47 +182,62 @@ torch::Tensor pass(NormalisedLinear& layer, const torch::Tensor& values) {
   const torch::Tensor kernel =
       layer.linear->weight.view({layer.plan.outputs, cells.size(1), cells.size(2), cells.size(3)});
   const torch::Tensor result = torch::conv2d(cells, kernel, layer.linear->bias).flatten(1);
-  return layer.plan.hidden ? torch::relu(layer.norm->forward(result)) : result;
+  if (!layer.plan.hidden) {
+    return result;
+  }
+  return torch::relu(layer.norm ? layer.norm->forward(result) : result);
 }
 
 }  // namespace
 
-TorchNetwork::TorchNetwork(const NetworkPlan& plan) : plan_(plan) {
+TorchNetwork::TorchNetwork(const NetworkPlan& plan, bool normalise)
+    : plan_(plan), normalise_(normalise) {
   for (const LayerPlan& layer : plan.layers) {
-    if (const auto* convolution = std::get_if<ConvolutionPlan>(&layer)) {
-      layers_.emplace_back(make(*convolution));
-    } else if (const auto* residual = std::get_if<ResidualPlan>(&layer)) {
-      layers_.emplace_back(make(*residual));
-    } else if (const auto* match = std::get_if<MatchPlan>(&layer)) {
-      NormalisedEncoder scan = make_encoder(match->scan_channels, *match);
-      layers_.emplace_back(
-          NormalisedMatch{*match, std::move(scan), make_encoder(match->drawing_channels, *match)});
-    } else {
-      const LinearPlan& linear = std::get<LinearPlan>(layer);
-      const std::string name = std::to_string(registered_++);
-      NormalisedLinear made{
-          .plan = linear,
-          .linear = register_module(
-              "linear" + name,
-              torch::nn::Linear(
-                  torch::nn::LinearOptions(linear.inputs, linear.outputs).bias(!linear.hidden)))};
-      if (linear.hidden) {
-        made.norm = register_module("norm" + name, torch::nn::BatchNorm1d(linear.outputs));
-      }
-      layers_.emplace_back(std::move(made));
-    }
+    std::visit([&](const auto& one) { layers_.emplace_back(make(one)); }, layer);
+  }
+}
+
+TorchNetwork::TorchNetwork(const FoldedNetwork& folded) : TorchNetwork(folded.plan, false) {
+  for (std::size_t i = 0; i < layers_.size(); ++i) {
+    std::visit(
+        [&](auto& layer) {
+          using Numbers = decltype(detail::folded(layer));
+          put(layer, std::get<Numbers>(folded.layers.at(i)));
+        },
+        layers_[i]);
   }
 }
 
 NormalisedConvolution TorchNetwork::make(const ConvolutionPlan& plan) {
   const std::string name = std::to_string(registered_++);
-  const auto options =
-      torch::nn::Conv2dOptions(plan.inputs, plan.outputs, 3).stride(plan.stride).padding(1);
-  return {
+  const auto options = torch::nn::Conv2dOptions(plan.inputs, plan.outputs, 3)
+                           .stride(plan.stride)
+                           .padding(1)
+                           .bias(!normalise_);
+  NormalisedConvolution made{
       .plan = plan,
-      .convolution = register_module(
-          "convolution" + name, torch::nn::Conv2d(torch::nn::Conv2dOptions(options).bias(false))),
-      .norm = register_module("norm" + name, torch::nn::BatchNorm2d(plan.outputs))};
+      .convolution = register_module("convolution" + name, torch::nn::Conv2d(options))};
+  if (normalise_) {
+    made.norm = register_module("norm" + name, torch::nn::BatchNorm2d(plan.outputs));
+  }
+  return made;
+}
+
+NormalisedLinear TorchNetwork::make(const LinearPlan& plan) {
+  const std::string name = std::to_string(registered_++);
+  const bool normalised = normalise_ && plan.hidden;
+  const auto options = torch::nn::LinearOptions(plan.inputs, plan.outputs).bias(!normalised);
+  NormalisedLinear made{.plan = plan,
+                        .linear = register_module("linear" + name, torch::nn::Linear(options))};
+  if (normalised) {
+    made.norm = register_module("norm" + name, torch::nn::BatchNorm1d(plan.outputs));
+  }
+  return made;
+}
+
+NormalisedMatch TorchNetwork::make(const MatchPlan& plan) {
+  NormalisedEncoder scan = make_encoder(plan.scan_channels, plan);
+  return {plan, std::move(scan), make_encoder(plan.drawing_channels, plan)};
 }
 
 NormalisedResidual TorchNetwork::make(const ResidualPlan& plan) {

@@ -32,14 +32,20 @@ torch::Tensor spline_tensor(const LocalWindow& window) {
   return tensor;
 }
 
+detail::Learner learner_of(const Trainer::Plan& plan, const TrainerParams& params) {
+  const detail::Learner::Course course{.seed = plan.seed, .total_batches = plan.total_batches};
+  return plan.from
+             ? detail::Learner(*plan.from, params, course)
+             : detail::Learner(plan_network(plan.kind, plan.window.cells), params, course);
+}
+
 }  // namespace
 
 class Trainer::Implementation {
  public:
   Implementation(const Plan& plan, const TrainerParams& params)
       : plan_(plan),
-        learner_(plan_network(plan.kind, plan.window.cells), params,
-                 {.seed = plan.seed, .total_batches = plan.total_batches}),
+        learner_(learner_of(plan, params)),
         spline_(spline_tensor(plan.window)) {}
 
   TrainingLoss learn(const SampleBatch& batch) {

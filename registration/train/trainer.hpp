@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,7 @@ class Trainer {
     LocalWindow window{};
     std::uint64_t seed = 1;
     std::uint64_t total_batches = 1;
+    std::optional<FoldedNetwork> from = {};  ///< a trained one of this kind to go on from
   };
 
   Trainer(const Plan& plan, const TrainerParams& params);

@@ -25,6 +25,8 @@ class Learner {
   using Loss = std::function<torch::Tensor(const torch::Tensor& output)>;
 
   Learner(const NetworkPlan& plan, const TrainerParams& params, const Course& course);
+  /// Goes on from a trained network, with a course of its own.
+  Learner(const FoldedNetwork& trained, const TrainerParams& params, const Course& course);
 
   /// One step down the loss of a batch, which is returned.
   double learn(const torch::Tensor& input, const Loss& loss);
@@ -39,6 +41,9 @@ class Learner {
   void restore(const std::string& checkpoint);
 
  private:
+  Learner(TorchNetwork network, TorchNetwork average, const TrainerParams& params,
+          const Course& course);
+
   void set_learning_rate();
 
   TrainerParams params_;

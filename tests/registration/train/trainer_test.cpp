@@ -112,6 +112,35 @@ TEST_P(TrainerOf, ExportsWhatOpenCvComputesTheSame) {
   }
 }
 
+TEST_P(TrainerOf, GoesOnFromANetworkThatWasExported) {
+  Trainer first(plan(), TrainerParams{});
+  learn(first, 0, 4);
+  Trainer::Plan from = plan();
+  from.from = network_of_onnx(plan_network(GetParam(), kSample.cells), onnx_bytes(first.folded()));
+  Trainer second(from, TrainerParams{});
+  const std::vector<float> expected = first.predict(data()[3]);
+  const std::vector<float> begun = second.predict(data()[3]);
+  ASSERT_EQ(begun.size(), expected.size());
+  for (std::size_t i = 0; i < begun.size(); ++i) {
+    EXPECT_NEAR(begun[i], expected[i], 1e-4);
+  }
+  Trainer resumed(from, TrainerParams{});
+  learn(second, 0, 2);
+  resumed.restore(second.checkpoint());
+  EXPECT_EQ(resumed.predict(data()[3]), second.predict(data()[3]));
+  EXPECT_NE(second.predict(data()[3]), begun);
+}
+
+TEST_P(TrainerOf, RefusesToGoOnFromWhatIsNotOfItsKind) {
+  const std::string bytes = onnx_bytes(Trainer(plan(), TrainerParams{}).folded());
+  const NetworkKind other =
+      GetParam() == NetworkKind::Ours ? NetworkKind::Chen20 : NetworkKind::Ours;
+  EXPECT_THROW(network_of_onnx(plan_network(other, kSample.cells), bytes), std::runtime_error);
+  const NetworkPlan own = plan_network(GetParam(), kSample.cells);
+  EXPECT_THROW(network_of_onnx(own, "no network"), std::runtime_error);
+  EXPECT_THROW(network_of_onnx(own, ""), std::runtime_error);
+}
+
 TEST_P(TrainerOf, JudgesByPoses) {
   Trainer trainer(plan(), TrainerParams{});
   const ValidationReport report = trainer.validate(data());
