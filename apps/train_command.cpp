@@ -98,11 +98,15 @@ std::unique_ptr<LearningTask> task_of(const TrainOptions& options, const TrainPa
     return make_same_place_task(params.same_place, plan);
   }
   require_halvings("source.sample.cells", params.source.sample.cells, 32);
-  return make_registration_task({.kind = kRegistrationKinds.at(options.network),
-                                 .source = params.source,
-                                 .improve_after = params.improve_after,
-                                 .from = trained_network(options.from)},
-                                plan);
+  try {
+    return make_registration_task({.kind = kRegistrationKinds.at(options.network),
+                                   .source = params.source,
+                                   .improve_after = params.improve_after,
+                                   .from = trained_network(options.from)},
+                                  plan);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(options.from.string() + ": " + error.what());
+  }
 }
 
 TrainingSittingPlan sitting_plan(const TrainOptions& options, const TrainParams& params) {

@@ -97,8 +97,8 @@ struct FoldedNetwork {
 /// match, else kStackedInput; output "output". Each of 1 x channels x cells x cells.
 std::string onnx_bytes(const FoldedNetwork& network);
 
-/// The other way: the numbers that such a file holds. Throws std::runtime_error where it is none, or
-/// one of another plan.
+/// The other way: the numbers that such a file holds. Throws std::runtime_error where it is none,
+/// or one of another plan.
 FoldedNetwork network_of_onnx(const NetworkPlan& plan, const std::string& bytes);
 
 }  // namespace sketchloc

@@ -52,8 +52,9 @@ class GraphReader {
 
   Match read(const MatchPlan& plan) {
     Encoder scan = read_encoder(plan.scan_channels, plan);
-    return {
-        .plan = plan, .scan = std::move(scan), .drawing = read_encoder(plan.drawing_channels, plan)};
+    return {.plan = plan,
+            .scan = std::move(scan),
+            .drawing = read_encoder(plan.drawing_channels, plan)};
   }
 
   Linear read(const LinearPlan& plan) {

@@ -34,9 +34,8 @@ torch::Tensor spline_tensor(const LocalWindow& window) {
 
 detail::Learner learner_of(const Trainer::Plan& plan, const TrainerParams& params) {
   const detail::Learner::Course course{.seed = plan.seed, .total_batches = plan.total_batches};
-  return plan.from
-             ? detail::Learner(*plan.from, params, course)
-             : detail::Learner(plan_network(plan.kind, plan.window.cells), params, course);
+  return plan.from ? detail::Learner(*plan.from, params, course)
+                   : detail::Learner(plan_network(plan.kind, plan.window.cells), params, course);
 }
 
 }  // namespace
@@ -44,9 +43,7 @@ detail::Learner learner_of(const Trainer::Plan& plan, const TrainerParams& param
 class Trainer::Implementation {
  public:
   Implementation(const Plan& plan, const TrainerParams& params)
-      : plan_(plan),
-        learner_(learner_of(plan, params)),
-        spline_(spline_tensor(plan.window)) {}
+      : plan_(plan), learner_(learner_of(plan, params)), spline_(spline_tensor(plan.window)) {}
 
   TrainingLoss learn(const SampleBatch& batch) {
     TrainingLoss parts;
