@@ -6,7 +6,6 @@
 #include "filter/detail/chunks.hpp"
 #include "motion/angles.hpp"
 #include "motion/check.hpp"
-#include "motion/validate.hpp"
 
 namespace sketchloc {
 namespace {
@@ -19,22 +18,6 @@ constexpr std::uint64_t kShrinkStream = 2ULL << 32;
 
 /// A robot that turns sees new directions: the way that is worth a radian to recovery.
 constexpr double kWayPerTurnM = 0.3;
-
-/// Typical of drawings; only where the end points are scored in one without a scale.
-constexpr double kTypicalPxPerM = 20.0;
-
-std::variant<BeamModel, EndPointModel> make_model(const Sketch& sketch, const RangeTable& table,
-                                                  const LocalizerParams& params) {
-  if (params.measurement == Measurement::Beams) {
-    return BeamModel(table, params.beams);
-  }
-  return EndPointModel(sketch, sketch.px_per_m.value_or(kTypicalPxPerM), params.end_points);
-}
-
-double exponent_of(const LocalizerParams& params) {
-  return params.measurement == Measurement::Beams ? params.beams.exponent
-                                                  : params.end_points.exponent;
-}
 
 /// Log of the radius of a circle as large as what the scan saw, GlobalSampler's counterpart; none
 /// where it saw nothing.
@@ -53,81 +36,26 @@ std::optional<double> log_visible_radius_m(const Scan& scan) {
 
 }  // namespace
 
-void validate(const MotionGate& gate) {
-  require_at_least("way_m", gate.way_m, 0.0);
-  require_at_least("turn_rad", gate.turn_rad, 0.0);
-  require_above("independent_way_m", gate.independent_way_m, 0.0);
-  require_above("independent_turn_rad", gate.independent_turn_rad, 0.0);
-}
-
-void validate(const StartSpread& spread) {
-  require_at_least("position_m", spread.position_m, 0.0);
-  require_at_least("heading_rad", spread.heading_rad, 0.0);
-  require_at_least("log_scale", spread.log_scale, 0.0);
-  require_at_least("log_mean_scale", spread.log_mean_scale, 0.0);
-  require_at_least("strain", spread.strain, 0.0);
-}
-
-void validate(const LocalizerParams& params) {
-  validate_part("predict", params.predict);
-  validate_part("beams", params.beams);
-  validate_part("end_points", params.end_points);
-  validate_part("particles", params.particles);
-  validate_part("modes", params.modes);
-  validate_part("gate", params.gate);
-  validate_part("start", params.start);
-  validate_part("recovery", params.recovery);
-  validate_part("fusion", params.fusion);
-  validate_part("localized", params.localized);
-  validate_part("challengers", params.challengers);
-  validate_part("table", params.table);
-  require_in_range("resample_below", params.resample_below, 0.0, 1.0);
-  require_in_range("jobs", params.jobs, 1, 1024);
-}
-
-std::span<const std::pair<std::string_view, Measurement>> names_of(Measurement) {
-  static constexpr std::pair<std::string_view, Measurement> kNames[] = {
-      {"beams", Measurement::Beams}, {"end_points", Measurement::EndPoints}};
-  return kNames;
-}
-
-LocalizerParams metric_localizer_params() {
-  LocalizerParams params;
-  params.predict = metric_motion();
-  params.measurement = Measurement::EndPoints;
-  params.modes.radius_m = 1.0;
-  params.particles.max_particles = 10000;  // a similarity less to sample than in a drawing
-  params.gate.independent_way_m = params.gate.way_m;  // what errs is mostly the range noise
-  params.gate.independent_turn_rad = params.gate.turn_rad;
-  params.start = {.position_m = 0.3,
-                  .heading_rad = 0.1,
-                  .log_scale = 0.0,
-                  .log_mean_scale = 0.0,
-                  .strain = 0.0};
-  return params;
-}
-
 Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params, WarpPredictor* predictor)
     : params_((validate(params), params)),
       table_(sketch.occupied, params.table),
       anywhere_(sketch, table_),
-      model_(make_model(sketch, table_, params)),
+      model_(sketch, table_, params),
       mode_finder_(params.modes,
                    std::max(params.particles.max_particles, params.recovery.candidates)),
       evidence_(params.recovery),
       challengers_(params.challengers),
-      bins_(params.particles.max_particles) {
+      resampler_(params.particles) {
   const std::size_t most = std::max(params.particles.max_particles, params.recovery.candidates);
-  for (ParticleSet* set : {&particles_, &resampled_, &candidates_}) {
+  for (ParticleSet* set : {&particles_, &candidates_}) {
     set->reserve(most);
   }
   scores_.resize(most);
-  unbent_scores_.resize(most);
+  chosen_.reserve(most);
   single_.resize(1);
   if (predictor != nullptr && (params.fusion.propose || params.fusion.measure)) {
     registrar_.emplace(sketch, *predictor, params.fusion);
   }
-  parents_.resize(most);
   if (sketch.px_per_m) {
     log_px_per_m_ = std::log(*sketch.px_per_m);
   }
@@ -203,7 +131,7 @@ const StepReport& Localizer::step(const Scan& scan, const Se2& odom_from_robot,
   shrink(budget.max_particles);
   report_.registered = look(robot_from_next, budget);
   predict_all(robot_from_next);
-  const std::size_t beams = gate_opens() ? observe(scan) : 0;
+  const std::size_t beams = gate_opens() ? model_.observe(scan) : 0;
   report_.updated = beams > 0;
   if (report_.updated) {
     weigh(beams);
@@ -278,23 +206,13 @@ bool Localizer::look(const Se2& robot_from_next, const StepBudget& budget) {
     return false;
   }
   registrar_->look(report_.estimate.modes, robot_from_next);
-  registrar_->assign(particles_, likelihood_of_);
+  registrar_->assign(particles_, params_.modes, likelihood_of_);
   return !registrar_->likelihoods().empty();
 }
 
-std::size_t Localizer::observe(const Scan& scan) {
-  return std::visit([&](auto& model) { return model.observe(scan); }, model_);
-}
-
-void Localizer::score(const ParticleSet& particles) {
-  for_each_chunk(particles.size(), params_.jobs, [&](std::size_t, ParticleRange range) {
-    std::visit([&](const auto& model) { model.score(particles, range, scores_); }, model_);
-  });
-}
-
 void Localizer::weigh(std::size_t beams) {
-  score(particles_);
-  const double exponent = exponent_of(params_) * new_share();
+  model_.score(particles_, scores_);
+  const double exponent = model_.exponent() * new_share();
   double weight_sum = 0.0;
   double score_sum = 0.0;
   for (std::size_t i = 0; i < particles_.size(); ++i) {
@@ -302,8 +220,8 @@ void Localizer::weigh(std::size_t beams) {
     weight_sum += weight;
     score_sum += weight * scores_[i];
   }
-  if (report_.registered && params_.fusion.measure && exponent > 0.0) {
-    add_unbent_scores(exponent);
+  if (report_.registered && params_.fusion.measure) {
+    model_.mix_unbent(particles_, {registrar_->registrations(), likelihood_of_}, exponent, scores_);
   }
   for (std::size_t i = 0; i < particles_.size(); ++i) {
     particles_.log_weight[i] += static_cast<float>(exponent * scores_[i]);
@@ -318,36 +236,6 @@ void Localizer::weigh(std::size_t beams) {
   updated_once_ = true;
 }
 
-/// The scan as it is and as its particle's registration unbends it, as a mixture of both by how
-/// probable it is that the warp is right: a wrong one costs little.
-void Localizer::add_unbent_scores(double exponent) {
-  const auto* model = std::get_if<BeamModel>(&model_);
-  if (model == nullptr) {
-    return;
-  }
-  const std::span<const Registration> registrations = registrar_->registrations();
-  for (std::size_t which = 0; which < registrations.size(); ++which) {
-    const double share = 0.5 * registrations[which].inlier_probability;
-    const std::optional<PreparedBeams> beams = model->unbent(registrations[which]);
-    if (!beams) {
-      continue;
-    }
-    for_each_chunk(particles_.size(), params_.jobs, [&](std::size_t, ParticleRange range) {
-      model->score(particles_, range, *beams, unbent_scores_);
-      for (std::size_t i = range.begin; i < range.end; ++i) {
-        if (likelihood_of_[i] == static_cast<std::int8_t>(which)) {
-          const double bent = exponent * scores_[i];
-          const double unbent = exponent * unbent_scores_[i];
-          const double most = std::max(bent, unbent);
-          scores_[i] = static_cast<float>((most + std::log((1.0 - share) * std::exp(bent - most) +
-                                                           share * std::exp(unbent - most))) /
-                                          exponent);
-        }
-      }
-    });
-  }
-}
-
 /// Fewer particles at once, where time is short.
 void Localizer::shrink(std::size_t most) {
   if (particles_.size() <= most) {
@@ -355,18 +243,7 @@ void Localizer::shrink(std::size_t most) {
   }
   report_.limited = true;  // until a resampling asks for no more than it may have
   Rng rng = make_rng(params_.seed, kShrinkStream + steps_);
-  replace_by_parents(most, rng);
-}
-
-void Localizer::replace_by_parents(std::size_t count, Rng& rng) {
-  const auto parents = std::span<std::uint32_t>(parents_).first(count);
-  systematic_parents(particles_.log_weight, parents, rng);
-  resampled_.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    resampled_.assign(i, particles_, parents[i]);
-    resampled_.log_weight[i] = 0.0F;
-  }
-  std::swap(particles_, resampled_);
+  resampler_.draw(particles_, most, rng);
 }
 
 void Localizer::resample(const StepBudget& budget) {
@@ -376,23 +253,9 @@ void Localizer::resample(const StepBudget& budget) {
     return;
   }
   Rng rng = make_rng(params_.seed, steps_ * kPurposes + kResample);
-  const std::span<std::uint32_t> all(parents_);
-  const auto most = all.first(std::min(params_.particles.max_particles, budget.max_particles));
-  systematic_parents(particles_.log_weight, most, rng);
-  const std::size_t enough = kld_count(count_bins(most), params_.particles);
+  const std::size_t enough = resampler_.adapt(particles_, budget.max_particles,
+                                              report_.estimate.sketch_from_robot.scale(), rng);
   report_.limited = enough > budget.max_particles;
-  replace_by_parents(std::min(enough, budget.max_particles), rng);
-}
-
-std::size_t Localizer::count_bins(std::span<const std::uint32_t> parents) {
-  bins_.clear();
-  const double side_px = params_.particles.bin_m * report_.estimate.sketch_from_robot.scale();
-  for (const std::uint32_t parent : parents) {
-    bins_.add(pose_bin(particles_.x_px[parent], particles_.y_px[parent],
-                       particles_.heading_rad[parent], side_px, params_.particles.bin_rad),
-              1.0);
-  }
-  return bins_.size();
 }
 
 void Localizer::recover() {
@@ -408,7 +271,9 @@ void Localizer::recover() {
   const auto count = static_cast<std::size_t>(expected + uniform(rng));
   if (count > 0) {
     draw_candidates();
-    replace_by_candidates(count, rng);
+    chosen_.resize(count);
+    systematic_parents(candidates_.log_weight, chosen_, rng);
+    replace_evenly(particles_, candidates_, chosen_, rng);
     report_.injected_share = static_cast<double>(count) / static_cast<double>(particles_.size());
   }
 }
@@ -425,24 +290,12 @@ void Localizer::draw_candidates() {
     Rng rng = make_rng(params_.seed, steps_ * kPurposes + kCandidates, chunk);
     anywhere_.draw(candidates_, range, scale, params_.start.strain, rng);
   });
-  score(candidates_);
+  model_.score(candidates_, scores_);
   const auto exponent = static_cast<float>(params_.recovery.candidate_exponent);
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     candidates_.log_weight[i] = exponent * scores_[i];
   }
   normalise(candidates_);
-}
-
-void Localizer::replace_by_candidates(std::size_t count, Rng& rng) {
-  const std::span<std::uint32_t> parents(parents_.data(), count);
-  systematic_parents(candidates_.log_weight, parents, rng);
-  const double spacing = static_cast<double>(particles_.size()) / static_cast<double>(count);
-  const double offset = uniform(rng);
-  for (std::size_t k = 0; k < count; ++k) {
-    const auto victim = static_cast<std::size_t>((static_cast<double>(k) + offset) * spacing);
-    particles_.assign(victim, candidates_, parents[k]);
-    particles_.log_weight[victim] = 0.0F;
-  }
 }
 
 GlobalStart Localizer::start_anywhere(const Scan& first_scan) {

@@ -1,6 +1,7 @@
 // The part of the localizer that knows whether it is right, and finds the robot anew.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "filter/localizer.hpp"
@@ -114,7 +115,7 @@ double Localizer::evidence_at(const Registration& registration) {
   single_.log_scale[0] = static_cast<float>(likelihood.mean[3]);
   single_.axial_strain[0] = static_cast<float>(likelihood.strain[0]);
   single_.diagonal_strain[0] = static_cast<float>(likelihood.strain[1]);
-  score(single_);
+  model_.score(single_, scores_);
   return scores_[0] / static_cast<double>(std::max<std::size_t>(update_beams_, 1));
 }
 
@@ -181,13 +182,9 @@ void Localizer::take_over() {
   candidates_.resize(std::max<std::size_t>(count, 1));
   Rng rng = make_rng(params_.seed, kTakeOver + steps_);
   draw_around(best.sketch_from_robot, candidates_, {.begin = 0, .end = candidates_.size()}, rng);
-  const double spacing =
-      static_cast<double>(particles_.size()) / static_cast<double>(candidates_.size());
-  const double offset = uniform(rng);
-  for (std::size_t k = 0; k < candidates_.size(); ++k) {
-    particles_.assign(static_cast<std::size_t>((static_cast<double>(k) + offset) * spacing),
-                      candidates_, k);
-  }
+  chosen_.resize(candidates_.size());
+  std::iota(chosen_.begin(), chosen_.end(), 0U);
+  replace_evenly(particles_, candidates_, chosen_, rng);
   const Sim2 before = report_.estimate.sketch_from_robot;
   std::swap(best.belief, belief_);
   best.sketch_from_robot = before;

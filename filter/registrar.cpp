@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "motion/angles.hpp"
 #include "motion/validate.hpp"
@@ -15,8 +14,6 @@ void validate(const FusionParams& fusion) {
   require_above("independent_way_m", fusion.independent_way_m, 0.0);
   require_above("independent_turn_rad", fusion.independent_turn_rad, 0.0);
   require_in_range("max_modes", fusion.max_modes, 1, 16);
-  require_above("mode_radius_m", fusion.mode_radius_m, 0.0);
-  require_in_range("mode_radius_rad", fusion.mode_radius_rad, 0.0, std::numbers::pi);
   validate_part("trust", fusion.trust);
   validate_part("recent", fusion.recent);
 }
@@ -88,19 +85,19 @@ void Registrar::look(std::span<const Mode> modes, const Se2& then_from_robot) {
   }
 }
 
-void Registrar::assign(const ParticleSet& particles,
+void Registrar::assign(const ParticleSet& particles, const ModeParams& modes,
                        std::vector<std::int8_t>& likelihood_of) const {
   likelihood_of.assign(particles.size(), kNoLikelihood);
   std::vector<double> nearest(particles.size(), 1.0);
   for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
     const Sim2& pose = modes_[mode];
-    const double per_px = 1.0 / (params_.mode_radius_m * pose.scale());
+    const double per_px = 1.0 / (modes.radius_m * pose.scale());
     for (std::size_t i = 0; i < particles.size(); ++i) {
       const double turn_rad =
           wrap_rad(static_cast<double>(particles.heading_rad[i]) - pose.yaw_rad());
       const double away =
           std::hypot(particles.x_px[i] - pose.x(), particles.y_px[i] - pose.y()) * per_px;
-      if (away < nearest[i] && std::abs(turn_rad) < params_.mode_radius_rad) {
+      if (away < nearest[i] && std::abs(turn_rad) < modes.radius_rad) {
         nearest[i] = away;
         likelihood_of[i] = static_cast<std::int8_t>(mode);
       }

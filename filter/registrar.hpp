@@ -7,6 +7,7 @@
 #include "datasets/scan.hpp"
 #include "datasets/sketch.hpp"
 #include "filter/estimate.hpp"
+#include "filter/mode_finder.hpp"
 #include "filter/particle_set.hpp"
 #include "filter/pose_likelihood.hpp"
 #include "filter/predict.hpp"
@@ -27,8 +28,6 @@ struct FusionParams {
       1.0;  ///< way after which a registration knows nothing of the last, > 0
   double independent_turn_rad = 3.0;  ///< or turned by this much, > 0
   int max_modes = 2;                  ///< registered, the heaviest ones, in [1, 16]
-  double mode_radius_m = 3.0;         ///< a particle this near to a mode belongs to it, > 0
-  double mode_radius_rad = 0.8;       ///< and headed this alike, > 0
   PoseTrust trust{};
   RecentScansParams recent{};  ///< what is registered
 };
@@ -42,8 +41,6 @@ void visit_fields(FusionParams& fusion, Visitor&& visit) {
   visit("independent_way_m", fusion.independent_way_m);
   visit("independent_turn_rad", fusion.independent_turn_rad);
   visit("max_modes", fusion.max_modes);
-  visit("mode_radius_m", fusion.mode_radius_m);
-  visit("mode_radius_rad", fusion.mode_radius_rad);
   visit("trust", fusion.trust);
   visit("recent", fusion.recent);
 }
@@ -86,7 +83,8 @@ class Registrar {
   bool sees_anything() const { return saw_anything_; }
 
   /// The index of each particle's likelihood, by the mode that it belonged to before it moved.
-  void assign(const ParticleSet& particles, std::vector<std::int8_t>& likelihood_of) const;
+  void assign(const ParticleSet& particles, const ModeParams& modes,
+              std::vector<std::int8_t>& likelihood_of) const;
 
  private:
   FusionParams params_;

@@ -86,7 +86,7 @@ TEST(Registrar, AsksFromTheHeaviestModesAsTheRobotMoved) {
 
 TEST(Registrar, GivesEachParticleTheLikelihoodOfItsNearestMode) {
   Recorder recorder;
-  Registrar registrar(small_drawing(), recorder, {.mode_radius_m = 3.0});
+  Registrar registrar(small_drawing(), recorder, {});
   registrar.add(scan_of(2.0F), Se2(), Se2());
   const std::vector<Mode> modes = {mode_at(20.0, 0.5), mode_at(60.0, 0.5)};
   registrar.look(modes, Se2());
@@ -99,7 +99,7 @@ TEST(Registrar, GivesEachParticleTheLikelihoodOfItsNearestMode) {
   }
   particles.heading_rad[3] = 3.0F;  // in the right place, headed the wrong way
   std::vector<std::int8_t> likelihood_of;
-  registrar.assign(particles, likelihood_of);
+  registrar.assign(particles, {.radius_m = 3.0}, likelihood_of);
   EXPECT_EQ(likelihood_of, (std::vector<std::int8_t>{0, 1, kNoLikelihood, kNoLikelihood}));
 }
 
