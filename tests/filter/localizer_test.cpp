@@ -198,6 +198,27 @@ TEST(Localizer, FindsTheRobotByRegistrationsWhereItStartedWrongTheSameAtAnyNumbe
   }
 }
 
+TEST(Localizer, LetsAPoseThatWasGivenBeContestedOnlyWhereItIsLost) {
+  const Sketch sketch = two_rooms();
+  const Drive drive = drive_through_the_door(sketch);
+  const auto finds_anew = [&](double start_log_odds, double lost_log_odds) {
+    LocalizerParams params = small_params();
+    params.beams.exponent = 1e-6;  // the particles alone never come back
+    params.localized.start_log_odds = start_log_odds;
+    params.challengers.lost_log_odds = lost_log_odds;
+    KnowsItNearby predictor(drive);
+    Localizer localizer(sketch, params, &predictor);
+    localizer.start_at(Sim2::from_xy_yaw_scale(220.0, 120.0, -2.0, kPxPerM));
+    return std::ranges::any_of(localize(localizer, drive), &StepReport::found_anew);
+  };
+  constexpr double kGiven = 4.0;
+  constexpr double kGuessed = 0.0;
+  constexpr double kNever = -20.0;
+  EXPECT_TRUE(finds_anew(kGuessed, kNever));
+  EXPECT_FALSE(finds_anew(kGiven, kNever));
+  EXPECT_TRUE(finds_anew(kGiven, kGuessed));
+}
+
 TEST(Localizer, StatesThatItIsLostWhereTheRobotWasCarriedAway) {
   const Sketch sketch = two_rooms();
   Drive drive = drive_through_the_door(sketch);
