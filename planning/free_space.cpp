@@ -145,9 +145,12 @@ bool FreeSpace::is_free(const Eigen::Vector2d& from_in_sketch,
   const Eigen::Vector2d direction = length > 0.0
                                         ? Eigen::Vector2d((to_in_sketch - from_in_sketch) / length)
                                         : Eigen::Vector2d::Zero();
+  if (!is_free(from_in_sketch)) {
+    return false;
+  }
   for (double way = 0.0; way < length;) {
     const Eigen::Vector2d point = from_in_sketch + way * direction;
-    const Cell cell = cell_at(point);
+    const Cell cell = detail::cell_ahead(point, direction);
     if (!is_free(cell)) {
       return false;
     }

@@ -88,6 +88,17 @@ TEST(FreeSpace, MeasuresLengthsByTheLocalScale) {
   EXPECT_NEAR(space_of(testing::house()).length_m({10.0, 10.0}, {40.0, 50.0}), 5.0, 1e-6);
 }
 
+TEST(FreeSpace, MeasuresSegmentsThatLeaveAnEdgeByLessThanRounding) {
+  const FreeSpace space = space_of(testing::house());
+  for (const double off : {-1e-9, -1e-12, 0.0, 1e-12, 1e-9}) {
+    const Vector2d from(20.0, 50.0);
+    const Vector2d to(20.0 + off, 10.0);
+    EXPECT_NEAR(space.length_m(from, to), 4.0, 1e-6) << off;
+    EXPECT_NEAR(space.length_m(to, from), 4.0, 1e-6) << off;
+    EXPECT_EQ(space.is_free(from, to), space.is_free(to, from)) << off;
+  }
+}
+
 TEST(FreeSpace, PricesNearnessByTheObjective) {
   const Vector2d from(54.0, 10.0);
   const Vector2d to(54.0, 25.0);
