@@ -11,9 +11,9 @@
 namespace sketchloc {
 
 struct NetworkPredictorParams {
-  LocalWindow window;         ///< of the first look: the one that the network was trained with
-  int looks = 2;              ///< ours: how often it looks, from its own last result, >= 1
-  double fine_side_m = 10.0;  ///< ours: side of the window of all looks but the first, > 0
+  LocalWindow window;        ///< of the first look: the one that the network was trained with
+  int looks = 2;             ///< ours: how often it looks, from its own last result, >= 1
+  double fine_side_m = 7.0;  ///< ours: side of the window of all looks but the first, > 0
 };
 
 template <typename Visitor>

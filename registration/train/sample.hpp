@@ -41,7 +41,7 @@ struct SampleParams {
   double side_m = 16.0;           ///< of the window, > 0
   int cells = 64;                 ///< of the window per side, >= 16
   double ahead_m = 0.0;           ///< of the window's centre
-  double min_fine_side_m = 8.0;   ///< of the window after an improved prior, log-uniform, > 0
+  double min_fine_side_m = 6.5;   ///< of the window after an improved prior, log-uniform, > 0
   double max_fine_side_m = 12.0;  ///< >= min_fine_side_m
   double alone_share = 0.35;      ///< samples of one scan at a random heading, in [0, 1]
   int max_scans = 6;              ///< of a submap, >= 1
