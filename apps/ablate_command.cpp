@@ -27,7 +27,8 @@ void add_ablate_command(CLI::App& program) {
   option("--methods", options->methods,
          "Rows (default all). registration: ours, chen20, affine, icp, none (keep the prior); the "
          "first is shown in pictures. Others: odometry; icp, affine, chen20, ours_chained (one "
-         "registration after the other); mcl, mcl+measure, mcl+propose, ours, ours+smooth")
+         "registration after the other); mcl, mcl+measure, mcl+propose, ours, ours+lag, "
+         "ours+smooth")
       ->delimiter(',');
   option("--network", options->networks, "Another network for a method")
       ->type_name("METHOD=FILE.onnx");

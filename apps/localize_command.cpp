@@ -47,8 +47,10 @@ void check_starts(const LocalizeOptions& options, const LocalizationMethod& meth
 }
 
 void check_smoothing(const LocalizeOptions& options, const LocalizationMethod& method) {
-  if (options.smooth && !(method.method == Method::Mcl && method.registration)) {
-    throw std::invalid_argument("--smooth needs a filter with registrations; give --method ours");
+  if (options.smoothing != Smoothing::None &&
+      !(method.method == Method::Mcl && method.registration)) {
+    throw std::invalid_argument(
+        "--smooth and --lag need a filter with registrations; give --method ours");
   }
 }
 
@@ -116,11 +118,12 @@ void localize_into(RunRecord& record, const LocalizeOptions& options,
   }
   const std::unique_ptr<WarpPredictor> predictor =
       predictor_of(method, options.method, params.predictor);
-  const LocalizationTask task{.method = method.method,
-                              .odometry = options.method.odometry,
-                              .start_sketch_from_robot = start_of(options, record),
-                              .predictor = predictor.get(),
-                              .smooth = options.smooth || method.smooth};
+  const LocalizationTask task{
+      .method = method.method,
+      .odometry = options.method.odometry,
+      .start_sketch_from_robot = start_of(options, record),
+      .predictor = predictor.get(),
+      .smoothing = options.smoothing == Smoothing::None ? method.smoothing : options.smoothing};
   Progress progress("localize", steps_of_work(record.run, task));
   const Clock::time_point begin = Clock::now();
   LocalizationParams of_method = params;
@@ -134,7 +137,7 @@ void localize_into(RunRecord& record, const LocalizeOptions& options,
   record.snapshots = std::move(found.snapshots);
   record.filtered = std::move(found.filtered);
   record.keyframes = std::move(found.keyframes);
-  if (task.smooth && record.filtered.empty()) {
+  if (task.smoothing == Smoothing::Whole && record.filtered.empty()) {
     spdlog::warn("{}: nothing could be registered, so that the run is not smoothed",
                  options.log.string());
   }
@@ -164,7 +167,8 @@ RunDescription description_of(const LocalizeOptions& options, const Localization
     }
   };
   add("network", options.method.network.string());
-  add("smooth", options.smooth ? "true" : "");
+  add("smooth", options.smoothing == Smoothing::Whole ? "true" : "");
+  add("lag", options.smoothing == Smoothing::Lagged ? "true" : "");
   add("start", options.start.pose);
   add("start-from-reference", options.start.from_reference ? "true" : "");
   add("global", options.start.has_pose() ? "" : "true");
@@ -214,10 +218,19 @@ void add_algorithm_options(CLI::App& command, LocalizeOptions& options) {
   std::ranges::transform(localization_methods(), std::back_inserter(names),
                          &LocalizationMethod::name);
   add_method_options(command, options.method, names);
+  CLI::Option* smooth =
+      command
+          .add_flag_callback(
+              "--smooth", [&options] { options.smoothing = Smoothing::Whole; },
+              "Smooth the path after the run, with all that it showed; see docs/smoothing.md")
+          ->group(kAlgorithmGroup);
   command
-      .add_flag("--smooth", options.smooth,
-                "Smooth the path after the run, with all that it showed; see docs/smoothing.md")
-      ->group(kAlgorithmGroup);
+      .add_flag_callback(
+          "--lag", [&options] { options.smoothing = Smoothing::Lagged; },
+          "Each pose as it would have been known --smoothing.lag.lag_m later, while the robot "
+          "drove")
+      ->group(kAlgorithmGroup)
+      ->excludes(smooth);
 }
 
 void add_other_options(CLI::App& command, LocalizeOptions& options) {

@@ -24,7 +24,7 @@ struct LocalizeOptions {
 
   StartOptions start;
   MethodOptions method;
-  bool smooth = false;  ///< after the run, with all that it showed
+  Smoothing smoothing = Smoothing::None;
 
   RunReading reading;     ///< of the log
   SketchReading drawing;  ///< of the map

@@ -75,6 +75,8 @@ void write_result_files(const OutputFolder& out, const RunRecord& record,
   write_atomically(out / "trajectory.csv", step_table_csv(record.steps));
   if (!record.filtered.empty()) {
     write_atomically(out / "filtered.csv", step_table_csv(record.filtered));
+  }
+  if (!record.keyframes.keyframes.empty()) {
     write_atomically(out / "keyframes.jsonl", to_jsonl(record.keyframes));
   }
   write_atomically(out / "metrics.json", to_json(measure_run(record)));

@@ -14,6 +14,7 @@
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/trajectory_io.hpp"
 #include "eval/keyframe_io.hpp"
+#include "eval/smoothed_localization.hpp"
 #include "eval/step_table.hpp"
 #include "smoothing/smooth.hpp"
 
@@ -27,12 +28,7 @@ std::vector<StepReport> reports_of(const KeyframeRun& run, const SmoothedRun& sm
     StepReport& report = reports.emplace_back();
     report.step = run.keyframes[k].step;
     report.time_s = run.keyframes[k].time_s;
-    report.estimate = {.sketch_from_robot = pose.sketch_from_robot,
-                       .covariance = pose.covariance,
-                       .modes = {{.sketch_from_robot = pose.sketch_from_robot,
-                                  .covariance = pose.covariance,
-                                  .weight = 1.0}}};
-    report.localized_probability = pose.probability;
+    report = smoothed_report(report, pose);
   }
   return reports;
 }

@@ -192,6 +192,14 @@ std::unique_ptr<MessageSource> source_of(const TrackOptions& options, const Run&
   return std::make_unique<StreamSource>(STDIN_FILENO, "stdin");
 }
 
+/// Who else hears of what was tracked; nobody without a lag.
+HearTracked hearer_of(std::optional<LaggedTrack>& lagged) {
+  if (!lagged) {
+    return {};
+  }
+  return [&lagged](const RunStep& step, const TrackedScan& scan) { lagged->hear(step, scan); };
+}
+
 /// None where nothing is ever too late.
 std::optional<double> deadline_of(const TrackOptions& options) {
   const bool hurried = options.rate.value_or(1.0) == 0.0;  // nobody waits for the poses
@@ -206,6 +214,7 @@ void validate(const TrackParams& params) {
   validate_part("odometry", params.odometry);
   validate_part("predictor", params.predictor);
   validate_part("tracker", params.tracker);
+  validate_part("smoothing", params.smoothing);
 }
 
 void run_track(const TrackOptions& options) {
@@ -223,11 +232,19 @@ void run_track(const TrackOptions& options) {
   Localizer localizer(sketch, params_of(method, params.localizer), predictor.get());
   OdometryFeed odometry(options.method.odometry, params.odometry);
   const std::optional<double> deadline_s = deadline_of(options);
+  std::optional<LaggedTrack> lagged;
+  if (options.lag) {
+    if (!predictor) {
+      throw std::invalid_argument("--lag needs a filter with registrations; give --method ours");
+    }
+    lagged.emplace(sketch, *predictor, params_of(method, params.localizer), params.smoothing);
+  }
   Tracker tracker(params.tracker, {.localizer = localizer,
                                    .odometry = odometry,
                                    .start = starter_of(options, drawing),
                                    .clock = steady_now_s,
-                                   .deadline_s = deadline_s});
+                                   .deadline_s = deadline_s,
+                                   .hear_tracked = hearer_of(lagged)});
   const std::string what = what_a_state_is_of(options, sketch, params);
   if (options.resume) {
     resume(tracker, options, what);
@@ -244,6 +261,7 @@ void run_track(const TrackOptions& options) {
   TrackLoop loop({.tracker = tracker,
                   .source = *source,
                   .write = [&](std::string_view line) { return sink.write(line); },
+                  .lagged = lagged ? &*lagged : nullptr,
                   .keeper = keeper ? &*keeper : nullptr,
                   .state_every_s = options.state_every_s,
                   .deadline_s = deadline_s});
@@ -256,7 +274,7 @@ namespace {
 std::vector<std::string> filters() {
   std::vector<std::string> names;
   for (const LocalizationMethod& method : localization_methods()) {
-    if (!method.smooth && method.method == Method::Mcl) {
+    if (method.smoothing == Smoothing::None && method.method == Method::Mcl) {
       names.push_back(method.name);
     }
   }
@@ -312,6 +330,11 @@ void add_input_options(CLI::App& command, TrackOptions& options) {
       ->type_name("MS");
   from_stdin->excludes(listen)->excludes(replay);
   listen->excludes(replay);
+  command
+      .add_flag(
+          "--lag", options.lag,
+          "Smoothed poses too, a line for each once the robot is --smoothing.lag.lag_m beyond")
+      ->group(kAlgorithmGroup);
   add_read_options(command, options.reading);
 }
 

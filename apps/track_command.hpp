@@ -9,6 +9,7 @@
 #include "datasets/io/sketch_io.hpp"
 #include "filter/online/tracker.hpp"
 #include "registration/network_predictor.hpp"
+#include "smoothing/lag_smoother.hpp"
 
 namespace CLI {
 class App;
@@ -21,6 +22,7 @@ struct TrackParams {
   MatchedOdometryParams odometry;
   NetworkPredictorParams predictor;
   TrackerParams tracker;
+  LagSmootherParams smoothing;
 };
 
 template <typename Visitor>
@@ -29,6 +31,7 @@ void visit_fields(TrackParams& params, Visitor&& visit) {
   visit("odometry", params.odometry);
   visit("predictor", params.predictor);
   visit("tracker", params.tracker);
+  visit("smoothing", params.smoothing);
 }
 
 /// Throws std::invalid_argument naming the component and field, its range and its value.
@@ -46,6 +49,7 @@ struct TrackOptions {
   std::filesystem::path replay;       ///< a log; empty: none
   std::optional<double> rate;         ///< of the replay, seconds per second; 0: as fast as possible
   std::optional<double> deadline_ms;  ///< 0: none
+  bool lag = false;                   ///< smoothed poses too, a way later
   RunReading reading;                 ///< of the log
 
   std::filesystem::path out;    ///< empty: stdout

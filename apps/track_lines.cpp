@@ -45,14 +45,17 @@ Json matrix(const Eigen::Matrix4d& values) {
   return rows;
 }
 
+Json pose_json(const Sim2& sketch_from_robot) {
+  return {{"x_px", sketch_from_robot.x()},
+          {"y_px", sketch_from_robot.y()},
+          {"heading_rad", sketch_from_robot.yaw_rad()},
+          {"scale_px_per_m", sketch_from_robot.scale()}};
+}
+
 /// What the filter believes. Whether it is right, as far as the filter knows, belongs here too.
 void add_belief(Json& line, const StepReport& report) {
   const Estimate& estimate = report.estimate;
-  const Sim2& pose = estimate.sketch_from_robot;
-  line["pose"] = {{"x_px", pose.x()},
-                  {"y_px", pose.y()},
-                  {"heading_rad", pose.yaw_rad()},
-                  {"scale_px_per_m", pose.scale()}};
+  line["pose"] = pose_json(estimate.sketch_from_robot);
   line["covariance"] = matrix(estimate.covariance);
   line["modes"] = estimate.modes.size();
   line["mode_weight"] = estimate.modes.empty() ? 0.0 : estimate.modes.front().weight;
@@ -136,6 +139,17 @@ std::string scan_line(const TrackedScan& scan) {
   }
   line["latency_ms"] = ms(scan.latency_s);
   return line.dump();
+}
+
+std::string lagged_line(const LaggedPose& lagged) {
+  return Json{{"time_s", lagged.time_s},
+              {"status", "smoothed"},
+              {"step", lagged.step},
+              {"pose", pose_json(lagged.pose.sketch_from_robot)},
+              {"covariance", matrix(lagged.pose.covariance)},
+              {"localized_probability", lagged.pose.probability},
+              {"lag_m", lagged.way_m}}
+      .dump();
 }
 
 std::string summary_line(const TrackEnd& end) {

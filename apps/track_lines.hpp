@@ -5,6 +5,7 @@
 
 #include "apps/track_tally.hpp"
 #include "filter/online/tracker.hpp"
+#include "smoothing/lag_smoother.hpp"
 
 namespace sketchloc {
 
@@ -12,6 +13,9 @@ namespace sketchloc {
 
 /// What became of one scan.
 std::string scan_line(const TrackedScan& scan);
+
+/// One line of JSON about a pose that was smoothed with a lag.
+std::string lagged_line(const LaggedPose& lagged);
 
 /// What came of the whole: the last line.
 struct TrackEnd {

@@ -24,7 +24,7 @@ std::string TrackLoop::run() {
   const double begin_s = steady_now_s();
   while (end_.empty()) {
     take_what_came();
-    const bool did_something = work();
+    const bool did_something = work() || smooth();
     keep_state(false);
     if (end_was_asked_for()) {
       end_ = "interrupted";
@@ -35,13 +35,18 @@ std::string TrackLoop::run() {
   if (end_ == "end of input") {
     parts_.tracker.end_of_input();
     work_all();
+    if (parts_.lagged != nullptr) {
+      parts_.lagged->finish();
+      write_smoothed();
+    }
   }
   keep_state(true);
   return end_line(begin_s);
 }
 
 void TrackLoop::take_what_came() {
-  const bool busy = parts_.tracker.has_work();
+  const bool smooths = parts_.lagged != nullptr && parts_.lagged->has_work();
+  const bool busy = parts_.tracker.has_work() || smooths;
   if (busy && !parts_.deadline_s) {
     return;  // whoever sends waits
   }
@@ -79,6 +84,21 @@ bool TrackLoop::work() {
   return !done.empty();
 }
 
+/// A bit of smoothing, where no scan waits. Says whether there was any to do.
+bool TrackLoop::smooth() {
+  if (parts_.lagged == nullptr || !parts_.lagged->work()) {
+    return false;
+  }
+  write_smoothed();
+  return true;
+}
+
+void TrackLoop::write_smoothed() {
+  for (const std::string& line : parts_.lagged->take_lines()) {
+    write(line);
+  }
+}
+
 void TrackLoop::work_all() {
   while (work() && !end_was_asked_for()) {
   }
@@ -86,14 +106,17 @@ void TrackLoop::work_all() {
 
 void TrackLoop::give_out(const TrackedScan& scan) {
   tally_.add(scan);
-  const std::string line = scan_line(scan);
-  parts_.source.answer(line);
-  if (!parts_.write(line)) {
-    end_ = "nobody reads the results";
-  }
+  write(scan_line(scan));
   speak_of(scan);
   if (const std::optional<std::string> complaint = parts_.source.complaint()) {
     say("source", *complaint);
+  }
+}
+
+void TrackLoop::write(const std::string& line) {
+  parts_.source.answer(line);
+  if (!parts_.write(line)) {
+    end_ = "nobody reads the results";
   }
 }
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "apps/complaints.hpp"
+#include "apps/lagged_track.hpp"
 #include "apps/message_source.hpp"
 #include "apps/state_file.hpp"
 #include "apps/track_tally.hpp"
@@ -21,6 +22,7 @@ struct TrackLoopParts {
   Tracker& tracker;
   MessageSource& source;
   WriteLine write;
+  LaggedTrack* lagged = nullptr;          ///< null: nothing is smoothed
   StateKeeper* keeper = nullptr;          ///< null: no states are kept
   double state_every_s = 1.0;             ///< by the clock of arrivals
   std::optional<double> deadline_s = {};  ///< none: messages wait where they come from
@@ -44,6 +46,9 @@ class TrackLoop {
   bool work();
   void work_all();
   void give_out(const TrackedScan& scan);
+  void write(const std::string& line);
+  bool smooth();
+  void write_smoothed();
   void keep_state(bool at_once);
   void speak_of_intake();
   void speak_of(const TrackedScan& scan);

@@ -64,4 +64,14 @@ Localization filter_pass(const Sketch& sketch, const Run& run, const Localizatio
   return result;
 }
 
+Run with_odometry(const Run& run, const LocalizationTask& task,
+                  const MatchedOdometryParams& params) {
+  OdometryFeed odometry(task.odometry, params);
+  Run refined = run;
+  for (RunStep& step : refined.steps) {
+    step.odom_from_robot = odometry.odom_from_robot(step);
+  }
+  return refined;
+}
+
 }  // namespace sketchloc

@@ -12,4 +12,8 @@ Localization filter_pass(const Sketch& sketch, const Run& run, const Localizatio
                          const LocalizationParams& params,
                          const std::function<void(std::size_t)>& progress);
 
+/// The run with the odometry that the task asks for in the place of the wheels' own.
+Run with_odometry(const Run& run, const LocalizationTask& task,
+                  const MatchedOdometryParams& params);
+
 }  // namespace sketchloc

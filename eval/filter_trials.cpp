@@ -129,7 +129,7 @@ FilterTrial run_filter_trial(const FilterTask& task, const FilterData& data,
                         ? std::nullopt
                         : std::optional(data.reference.poses.front().sketch_from_robot),
                 .predictor = predictor,
-                .smooth = method.smooth},
+                .smoothing = method.smoothing},
                used);
   if (found.status != Localization::Status::Done) {
     throw std::runtime_error(task.set + ": cannot be localized in; it has no scans");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "eval/filter_pass.hpp"
+#include "eval/lagged_localization.hpp"
 #include "eval/robot_finder.hpp"
 #include "eval/smoothed_localization.hpp"
 #include "motion/check.hpp"
@@ -68,12 +69,27 @@ Localization chain(const Sketch& sketch, const Run& run, const LocalizationTask&
   return result;
 }
 
+Localization filter_and_smooth(const Sketch& sketch, const Run& run, const LocalizationTask& task,
+                               const LocalizationParams& params,
+                               const std::function<void(std::size_t)>& progress) {
+  switch (task.smoothing) {
+    case Smoothing::None:
+      return filter_pass(sketch, run, task, params, progress);
+    case Smoothing::Lagged:
+      return localize_with_lag(sketch, run, task, params, progress);
+    case Smoothing::Whole:
+      return localize_and_smooth(sketch, run, task, params, progress);
+  }
+  return {};
+}
+
 }  // namespace
 
 void validate(const SmoothingPlan& plan) {
   validate_part("keyframes", plan.keyframes);
   validate_part("smoothing", plan.smoothing);
   validate_part("place_pairs", plan.place_pairs);
+  validate_part("lag", plan.lag);
   require_in_range("max_modes", plan.max_modes, 1, 16);
 }
 
@@ -100,14 +116,13 @@ Localization localize(const Sketch& sketch, const Run& run, const LocalizationTa
     case Method::Chained:
       return chain(sketch, run, task, params, progress);
     case Method::Mcl:
-      return task.smooth ? localize_and_smooth(sketch, run, task, params, progress)
-                         : filter_pass(sketch, run, task, params, progress);
+      return filter_and_smooth(sketch, run, task, params, progress);
   }
   return {};
 }
 
 std::size_t steps_of_work(const Run& run, const LocalizationTask& task) {
-  return (task.smooth ? 2 : 1) * run.steps.size();
+  return (task.smoothing == Smoothing::Whole ? 2 : 1) * run.steps.size();
 }
 
 std::optional<double> guess_px_per_m(const Sketch& sketch, const Eigen::Vector2d& place_in_sketch,

@@ -15,6 +15,7 @@
 #include "registration/network_predictor.hpp"
 #include "registration/odometry_feed.hpp"
 #include "smoothing/keyframes.hpp"
+#include "smoothing/lag_smoother.hpp"
 #include "smoothing/smooth.hpp"
 
 namespace sketchloc {
@@ -26,13 +27,21 @@ enum class Method {
   Odometry  ///< dead reckoning from the start: what the others must beat
 };
 
-/// How a run is smoothed after the fact (docs/smoothing.md).
+/// Whether poses are smoothed (docs/smoothing.md).
+enum class Smoothing {
+  None,
+  Lagged,  ///< as they would have been known a way later, while the robot drove
+  Whole    ///< with all that the run showed
+};
+
+/// How a run is smoothed (docs/smoothing.md).
 struct SmoothingPlan {
   KeyframeParams keyframes;
   SmoothingParams smoothing;
   int max_modes = 2;    ///< of each filter, registered at each keyframe, in [1, 16]
   bool places = false;  ///< keyframes of one place, told by the building's topology, are tied
   PlacePairParams place_pairs;
+  LagParams lag;
 };
 
 template <typename Visitor>
@@ -42,6 +51,7 @@ void visit_fields(SmoothingPlan& plan, Visitor&& visit) {
   visit("max_modes", plan.max_modes);
   visit("places", plan.places);
   visit("place_pairs", plan.place_pairs);
+  visit("lag", plan.lag);
 }
 
 /// Throws std::invalid_argument naming the component and field, its range and its value.
@@ -71,9 +81,9 @@ struct LocalizationTask {
   Method method = Method::Mcl;
   OdometrySource odometry = OdometrySource::Matched;
   std::optional<Sim2> start_sketch_from_robot =
-      std::nullopt;                    ///< none: anywhere in the drawing; MCL only
-  WarpPredictor* predictor = nullptr;  ///< registers scans; a chain needs one
-  bool smooth = false;                 ///< MCL with a predictor only
+      std::nullopt;                       ///< none: anywhere in the drawing; MCL only
+  WarpPredictor* predictor = nullptr;     ///< registers scans; a chain needs one
+  Smoothing smoothing = Smoothing::None;  ///< else MCL with a predictor only
 };
 
 struct Localization {

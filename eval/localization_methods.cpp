@@ -8,7 +8,7 @@ namespace sketchloc {
 
 std::span<const LocalizationMethod> localization_methods() {
   using enum RegistrationMethod;
-  static const std::array<LocalizationMethod, 10> kMethods = {
+  static const std::array<LocalizationMethod, 11> kMethods = {
       {{.name = "odometry", .method = Method::Odometry, .registration = {}},
        {.name = "icp", .method = Method::Chained, .registration = Icp},
        {.name = "affine", .method = Method::Chained, .registration = Affine},
@@ -21,7 +21,12 @@ std::span<const LocalizationMethod> localization_methods() {
         .registration = Ours,
         .propose = true,
         .measure = true,
-        .smooth = true},
+        .smoothing = Smoothing::Whole},
+       {.name = "ours+lag",
+        .registration = Ours,
+        .propose = true,
+        .measure = true,
+        .smoothing = Smoothing::Lagged},
        {.name = "ours", .registration = Ours, .propose = true, .measure = true}}};
   return kMethods;
 }

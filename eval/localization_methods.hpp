@@ -16,13 +16,13 @@ struct LocalizationMethod {
   std::optional<RegistrationMethod> registration;
   bool propose = false;
   bool measure = false;
-  bool smooth = false;
+  Smoothing smoothing = Smoothing::None;
 };
 
 /// All that there are: `odometry`; one registration after the other as in [Chen20] by `icp`,
 /// `affine`, `chen20` and ours (`ours_chained`); the filter alone (`mcl`), helped by registrations
 /// of ours in its measurement (`mcl+measure`), its proposal (`mcl+propose`), or both (`ours`), and
-/// that smoothed after the run (`ours+smooth`).
+/// that smoothed with a lag (`ours+lag`) or after the run (`ours+smooth`).
 std::span<const LocalizationMethod> localization_methods();
 
 /// One of them. Throws std::invalid_argument with the names that there are.

@@ -13,16 +13,6 @@ namespace {
 
 constexpr Around kSides[] = {Around::Before, Around::After, Around::Both};
 
-Run with_odometry(const Run& run, const LocalizationTask& task,
-                  const MatchedOdometryParams& params) {
-  OdometryFeed odometry(task.odometry, params);
-  Run refined = run;
-  for (RunStep& step : refined.steps) {
-    step.odom_from_robot = odometry.odom_from_robot(step);
-  }
-  return refined;
-}
-
 /// The steps of a filter that starts where the robot ended and goes back to where it began.
 std::vector<StepReport> filter_backwards(const Sketch& sketch, const Run& run,
                                          const LocalizationTask& task,
@@ -85,18 +75,25 @@ std::vector<StepReport> smoothed_steps(std::vector<StepReport> steps, const Run&
     while (last + 1 < keyframes.keyframes.size() && keyframes.keyframes[last + 1].step <= i) {
       ++last;
     }
-    const SmoothedPose& known = smoothed.poses[last];
-    steps[i].estimate = {
-        .sketch_from_robot = poses[i],
-        .covariance = known.covariance,
-        .modes = {{.sketch_from_robot = poses[i], .covariance = known.covariance, .weight = 1.0}}};
-    steps[i].localized_probability = known.probability;
-    steps[i].share_within_bounds = 1.0;
+    SmoothedPose pose = smoothed.poses[last];
+    pose.sketch_from_robot = poses[i];
+    steps[i] = smoothed_report(std::move(steps[i]), pose);
   }
   return steps;
 }
 
 }  // namespace
+
+StepReport smoothed_report(StepReport report, const SmoothedPose& pose) {
+  report.estimate = {.sketch_from_robot = pose.sketch_from_robot,
+                     .covariance = pose.covariance,
+                     .modes = {{.sketch_from_robot = pose.sketch_from_robot,
+                                .covariance = pose.covariance,
+                                .weight = 1.0}}};
+  report.localized_probability = pose.probability;
+  report.share_within_bounds = 1.0;
+  return report;
+}
 
 Localization localize_and_smooth(const Sketch& sketch, const Run& run, const LocalizationTask& task,
                                  const LocalizationParams& params,

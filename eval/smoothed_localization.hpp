@@ -7,6 +7,9 @@
 
 namespace sketchloc {
 
+/// The report of a step with a smoothed pose in the place of the filter's own.
+StepReport smoothed_report(StepReport report, const SmoothedPose& pose);
+
 /// Steps a filter through the run and another one back through it, from where the first one ended;
 /// registers at keyframes from both filters' modes, and smooths what that says (docs/smoothing.md).
 /// The steps of the result are smoothed, except where nothing could be registered.

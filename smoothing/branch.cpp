@@ -236,7 +236,9 @@ Branch find_branch(const KeyframeRun& run, const SmoothingParams& params) {
   }
   const auto decide = [&](const std::vector<Stage>& stages) {
     choose(stages, branch);
-    weigh(stages, run.start_sketch_from_robot ? 0.0 : params.start_elsewhere, params, branch);
+    weigh(stages,
+          run.start_sketch_from_robot ? 1.0 - run.start_probability : params.start_elsewhere,
+          params, branch);
   };
   decide(alone);
   for (int round = 0; round < params.pair_rounds && !run.pairs.empty(); ++round) {

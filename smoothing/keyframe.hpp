@@ -18,6 +18,15 @@ struct PoseHypothesis {
   double inlier_probability = 0.5;  ///< that it is right at all, in [0, 1]
 };
 
+/// Of a pose that is known with a covariance of (x px, y px, heading rad, log scale) in the sketch
+/// frame.
+PoseHypothesis hypothesis_of(const Sim2& sketch_from_robot,
+                             const Eigen::Matrix4d& covariance_in_sketch,
+                             double inlier_probability);
+
+/// The covariance of a hypothesis in the sketch frame, as above.
+Eigen::Matrix4d covariance_in_sketch(const PoseHypothesis& hypothesis);
+
 /// One of the instants, a little way apart, at which smoothing looks.
 struct Keyframe {
   std::size_t step = 0;  ///< index of the scan in the run
@@ -40,6 +49,7 @@ struct KeyframePair {
 /// What smoothing knows of a run.
 struct KeyframeRun {
   std::optional<Sim2> start_sketch_from_robot = std::nullopt;  ///< at the first keyframe, if given
+  double start_probability = 1.0;  ///< that a start that was given is right, in [0, 1]
   std::vector<Keyframe> keyframes = {};
   std::vector<KeyframePair> pairs = {};
 };

@@ -166,28 +166,33 @@ SmoothedRun smooth(const KeyframeRun& run, const SmoothingParams& params) {
   return result;
 }
 
+Sim2 carried_pose(const KeyframeRun& run, std::span<const SmoothedPose> smoothed, std::size_t step,
+                  const Se2& odom_from_robot) {
+  check(!smoothed.empty() && smoothed.size() == run.keyframes.size(), "a pose per keyframe");
+  const auto carried = [&](std::size_t k) {
+    return smoothed[k].sketch_from_robot *
+           (run.keyframes[k].odom_from_robot.inverse() * odom_from_robot);
+  };
+  const auto after = std::ranges::upper_bound(run.keyframes, step, {}, &Keyframe::step);
+  const auto next = static_cast<std::size_t>(after - run.keyframes.begin());
+  if (next == 0) {
+    return carried(0);
+  }
+  const std::size_t last = next - 1;
+  const std::size_t since = step - run.keyframes[last].step;
+  if (next == run.keyframes.size() || since == 0) {
+    return carried(last);
+  }
+  const double share = static_cast<double>(since) /
+                       static_cast<double>(run.keyframes[next].step - run.keyframes[last].step);
+  return interpolate(carried(last), carried(next), share);
+}
+
 std::vector<Sim2> carried_poses(const KeyframeRun& run, std::span<const SmoothedPose> smoothed,
                                 std::span<const Se2> odom_from_robot) {
-  check(!smoothed.empty() && smoothed.size() == run.keyframes.size(), "a pose per keyframe");
-  const auto carried = [&](std::size_t k, std::size_t step) {
-    return smoothed[k].sketch_from_robot *
-           (run.keyframes[k].odom_from_robot.inverse() * odom_from_robot[step]);
-  };
   std::vector<Sim2> poses;
-  std::size_t last = 0;
   for (std::size_t step = 0; step < odom_from_robot.size(); ++step) {
-    while (last + 1 < run.keyframes.size() && run.keyframes[last + 1].step <= step) {
-      ++last;
-    }
-    const bool is_between = last + 1 < run.keyframes.size() && run.keyframes[last].step < step;
-    if (!is_between) {
-      poses.push_back(carried(last, step));
-      continue;
-    }
-    const double share =
-        static_cast<double>(step - run.keyframes[last].step) /
-        static_cast<double>(run.keyframes[last + 1].step - run.keyframes[last].step);
-    poses.push_back(interpolate(carried(last, step), carried(last + 1, step), share));
+    poses.push_back(carried_pose(run, smoothed, step, odom_from_robot[step]));
   }
   return poses;
 }

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Re-makes the figures of docs/results/smoothing.md: the filter, and the same runs smoothed afterwards. The
-# real drawings need the development data in $SKETCHLOC_DATA.
+# Re-makes the figures of docs/results/smoothing.md: the filter, and the same runs smoothed with a lag and
+# afterwards. The real drawings need the development data in $SKETCHLOC_DATA.
 # Usage: docs/results/smoothing.sh OUT_DIR [SEEDS [OPTIONS OF ABLATE FOR THE SIMULATED...]]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
@@ -9,7 +9,7 @@ data=${SKETCHLOC_DATA:-$here/../shared/data}
 out=${1:?usage: smoothing.sh OUT_DIR [SEEDS [OPTIONS...]]}
 seeds=${2:-2}
 mkdir -p "$out"
-methods=ours,ours+smooth
+methods=ours,ours+lag,ours+smooth
 
 if [ -d "$data" ]; then
   intel=$data/sketches/intel_sketch_3_rot180.png,$data/logs/intel.log.gz

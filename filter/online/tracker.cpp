@@ -114,6 +114,10 @@ TrackedScan Tracker::track(ReadyScan scan) {
                  .particles = result.report.particles,
                  .updated = result.report.updated,
                  .looked = result.report.looked});
+  if (parts_.hear_tracked) {
+    parts_.hear_tracked({.scan = std::move(scan.step.scan), .odom_from_robot = odom_from_robot},
+                        result);
+  }
   return result;
 }
 

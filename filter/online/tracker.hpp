@@ -78,6 +78,9 @@ using LoopClock = std::function<double()>;
 /// Starts the localizer from a scan; false: this scan does not tell where, the next one may.
 using StartLocalizer = std::function<bool(Localizer&, const Scan&)>;
 
+/// Hears of each scan that was tracked, with the refined odometry.
+using HearTracked = std::function<void(const RunStep&, const TrackedScan&)>;
+
 /// What the online loop drives. All must outlive it.
 struct TrackerParts {
   Localizer& localizer;
@@ -85,6 +88,7 @@ struct TrackerParts {
   StartLocalizer start;
   LoopClock clock;
   std::optional<double> deadline_s = std::nullopt;  ///< none: no scan is ever too late
+  HearTracked hear_tracked = {};
 };
 
 /// The online loop: messages in, one result for every scan out, each within a deadline if there is

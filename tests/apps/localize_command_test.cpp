@@ -130,6 +130,24 @@ TEST_F(LocalizeCommandEndToEnd, SmoothsARunAndSmoothsItAgainFromItsFolder) {
   }
 }
 
+TEST_F(LocalizeCommandEndToEnd, GivesPosesAsTheyAreKnownALagLater) {
+  const fs::path out = outputs_ / "lagged";
+  std::vector<std::string> more = with_reference();
+  more.insert(more.end(), {"--method", "ours", "--lag", "--smoothing.lag.lag_m", "3"});
+  const CommandResult result = localize(out, more);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::vector<StepReport> lagged = read_step_table(out / "trajectory.csv");
+  const std::vector<StepReport> filtered = read_step_table(out / "filtered.csv");
+  ASSERT_EQ(lagged.size(), filtered.size());
+  const auto moved_px = [&](std::size_t i) {
+    return (lagged[i].estimate.sketch_from_robot.translation() -
+            filtered[i].estimate.sketch_from_robot.translation())
+        .norm();
+  };
+  EXPECT_GT(moved_px(lagged.size() / 2), 0.0);
+  EXPECT_FALSE(fs::exists(out / "keyframes.jsonl"));
+}
+
 TEST_F(LocalizeCommandEndToEnd, SaysWhatSmoothingNeeds) {
   std::vector<std::string> more = with_reference();
   more.insert(more.end(), {"--method", "mcl", "--smooth"});
@@ -318,7 +336,7 @@ TEST_F(LocalizeCommandEndToEnd, NamesTheFlagWhereAValueMakesNoSense) {
   };
   EXPECT_THAT(message({"--seed", "-1"}), HasSubstr("--seed: must be a whole number, 0 or more"));
   EXPECT_THAT(message({"--method", "foo"}),
-              HasSubstr("mcl+propose, ours+smooth or ours, but it is 'foo'"));
+              HasSubstr("mcl+propose, ours+smooth, ours+lag or ours, but it is 'foo'"));
   EXPECT_THAT(message({"--max-range-m", "0"}),
               HasSubstr("must be a number above 0, but it is '0'"));
   EXPECT_THAT(message({"--start", ""}), HasSubstr("--start must be X,Y,HEADING_DEG"));

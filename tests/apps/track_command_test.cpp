@@ -117,6 +117,34 @@ class TrackCommandEndToEnd : public ::testing::Test {
 TemporaryDirectory* TrackCommandEndToEnd::inputs_ = nullptr;
 DataSet* TrackCommandEndToEnd::data_set_ = nullptr;
 
+TEST_F(TrackCommandEndToEnd, GivesASmoothedPoseOfEachScanALagLater) {
+  const CommandResult result = testing::run_command(
+      from_reference({"--replay", log(), "--rate", "0", "--lag", "--smoothing.lag.lag_m", "2"}));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  std::size_t tracked = 0;
+  std::size_t smoothed = 0;
+  for (const json& line : parsed(result.out)) {
+    if (line.value("status", "") == "tracked") {
+      EXPECT_EQ(line["step"], tracked++);
+    } else if (line.value("status", "") == "smoothed") {
+      EXPECT_EQ(line["step"], smoothed);
+      EXPECT_LT(error_m(line, smoothed), 1.0) << line;
+      EXPECT_TRUE(line["lag_m"] >= 2.0 || tracked == data_set_->run.steps.size()) << line;
+      ++smoothed;
+    }
+    EXPECT_LE(smoothed, tracked);
+  }
+  EXPECT_EQ(tracked, data_set_->run.steps.size());
+  EXPECT_EQ(smoothed, tracked);
+}
+
+TEST_F(TrackCommandEndToEnd, SmoothsOnlyWithRegistrations) {
+  const CommandResult result =
+      testing::run_command(from_reference({"--replay", log(), "--lag", "--method", "mcl"}));
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--lag needs a filter with registrations"));
+}
+
 TEST_F(TrackCommandEndToEnd, GivesThePosesOfLocalize) {
   std::vector<std::string> localize = {SKETCHLOC_PROGRAM,
                                        "localize",
