@@ -34,8 +34,8 @@ inline double to_next_cell_px(const Eigen::Vector2d& point, const Eigen::Vector2
   return way_px + kBeyondCell_px;
 }
 
-/// Calls visit(cell, way_px) for every cell that a segment runs through, in order, with the length of
-/// the part in it.
+/// Calls visit(cell, way_px) for every cell that a segment runs through, in order, with the length
+/// of the part in it.
 template <typename Visit>
 void visit_cells(const Eigen::Vector2d& from, const Eigen::Vector2d& to, const Visit& visit) {
   const double length_px = (to - from).norm();
