@@ -1,7 +1,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <map>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "apps/ablate_suites.hpp"
 #include "apps/fingerprint.hpp"
 #include "apps/given_network.hpp"
+#include "apps/navigation_clock.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/parallel.hpp"
@@ -20,14 +20,11 @@
 #include "apps/ranks.hpp"
 #include "apps/unfinished_work.hpp"
 #include "datasets/io/atomic_file.hpp"
-#include "eval/navigation.hpp"
+#include "eval/navigation_record.hpp"
+#include "eval/navigation_summary.hpp"
 
 namespace sketchloc {
 namespace {
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// One task and method: what one thread does in one go.
 struct Piece {
@@ -85,9 +82,11 @@ std::string run_piece(const Piece& piece, const AblateOptions& options,
         params.filter.predictor);
   }
   const NavigationTask task =
-      navigation_task(piece.kind, piece.plan, params.navigation, options.seed);
-  return navigation_json(navigate(task, piece.method, params.filter, params.navigation,
-                                  predictor.get(), options.seed, now_s));
+      navigation_task(piece.kind, piece.plan, params.navigation.task,
+                      params.navigation.follower.body.radius_m, options.seed);
+  return navigation_json(navigate(
+      task, {.method = piece.method, .localization = params.filter, .predictor = predictor.get()},
+      params.navigation, options.seed, navigation_clock()));
 }
 
 }  // namespace

@@ -14,7 +14,7 @@
 #include "datasets/sketch.hpp"
 #include "eval/filter_suite.hpp"
 #include "eval/localization.hpp"
-#include "eval/navigation.hpp"
+#include "eval/navigation_summary.hpp"
 #include "eval/planning_suite.hpp"
 #include "eval/predictors.hpp"
 #include "eval/registration_suite.hpp"

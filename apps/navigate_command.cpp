@@ -3,24 +3,23 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
 
 #include "apps/given_network.hpp"
+#include "apps/navigation_clock.hpp"
 #include "apps/option_checks.hpp"
 #include "apps/output_folder.hpp"
 #include "apps/program.hpp"
 #include "apps/run_file.hpp"
 #include "datasets/io/atomic_file.hpp"
+#include "eval/navigation_picture.hpp"
+#include "eval/navigation_record.hpp"
+#include "eval/navigation_summary.hpp"
 
 namespace sketchloc {
 namespace {
-
-double now_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 RunDescription description_of(const NavigateOptions& options, const NavigateParams& params) {
   return {.command = "navigate",
@@ -52,9 +51,11 @@ void run_navigate(const NavigateOptions& options) {
     predictor = predictor_from(*method.registration, {}, params.filter.predictor);
   }
   const NavigationTask task =
-      navigation_task(options.person, options.plan, params.navigation, options.seed);
-  const NavigationTrial trial = navigate(task, method, params.filter, params.navigation,
-                                         predictor.get(), options.seed, now_s);
+      navigation_task(options.person, options.plan, params.navigation.task,
+                      params.navigation.follower.body.radius_m, options.seed);
+  const NavigationTrial trial = navigate(
+      task, {.method = method, .localization = params.filter, .predictor = predictor.get()},
+      params.navigation, options.seed, navigation_clock());
   write_atomically(out / "drive.json", navigation_json(trial));
   write_atomically(out / "picture.png", picture_png(task, trial));
   write_atomically(out / "metrics.json",

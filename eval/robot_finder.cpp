@@ -6,6 +6,19 @@ namespace sketchloc {
 namespace {
 
 constexpr double kLeastTrust = 0.5;  ///< of a registration's own probability to be right
+constexpr double kCommon_m = 0.1;    ///< error that looks at the same strokes share
+constexpr double kUnstated_m = 0.4;  ///< error of a place, where nobody says how large it is
+
+/// Of the place g of the robot's plane, where the pose errs by e: g - e(x, y) - e(heading) x g -
+/// e(log scale) g, to the first order.
+Eigen::Matrix2d covariance_at(const Eigen::Vector2d& place_in_robot,
+                              const Eigen::Matrix4d& of_pose) {
+  Eigen::Matrix<double, 2, 4> by_error;
+  by_error << 1.0, 0.0, -place_in_robot.y(), place_in_robot.x(),  //
+      0.0, 1.0, place_in_robot.x(), place_in_robot.y();
+  return by_error * of_pose * by_error.transpose() +
+         kCommon_m * kCommon_m * Eigen::Matrix2d::Identity();
+}
 
 }  // namespace
 
@@ -61,8 +74,10 @@ RobotFinder::RobotFinder(const Sketch& sketch, const LocalizationMethod& method,
 void RobotFinder::step(const RunStep& step) {
   odom_from_robot_ = odometry_.odom_from_robot(step);
   recent_.add(step.scan, odom_from_robot_);
+  looked_now_ = false;
   if (chain_) {
-    if (chain_->step(step.scan, odom_from_robot_)) {
+    looked_now_ = chain_->step(step.scan, odom_from_robot_);
+    if (looked_now_) {
       look_ = chain_->registration();
       odom_at_look_ = odom_from_robot_;
     }
@@ -82,7 +97,16 @@ void RobotFinder::look() {
   if (found && found->inlier_probability >= kLeastTrust) {
     look_ = std::move(found);
     odom_at_look_ = odom_from_robot_;
+    looked_now_ = true;
   }
+}
+
+PlaceLook RobotFinder::look_for(const Eigen::Vector2d& place_in_sketch) const {
+  const Eigen::Vector2d place_in_robot = robot_from_sketch(place_in_sketch);
+  const bool is_stated = looked_now_ && look_->covariance;
+  return {.place_in_robot = place_in_robot,
+          .covariance_m2 = is_stated ? covariance_at(place_in_robot, *look_->covariance)
+                                     : kUnstated_m * kUnstated_m * Eigen::Matrix2d::Identity()};
 }
 
 Eigen::Vector2d RobotFinder::robot_from_sketch(const Eigen::Vector2d& place_in_sketch) const {

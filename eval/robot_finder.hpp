@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
+#include "eval/goal_estimator.hpp"
 #include "eval/localization_methods.hpp"
 #include "registration/recent_scans.hpp"
 
@@ -56,6 +57,9 @@ class RobotFinder {
   /// local map: near a goal it tells more than the pose.
   Eigen::Vector2d robot_from_sketch(const Eigen::Vector2d& place_in_sketch) const;
 
+  /// The same with how exact it says to be.
+  PlaceLook look_for(const Eigen::Vector2d& place_in_sketch) const;
+
   /// Registers from the pose, for robot_from_sketch(); nothing with methods that do not register.
   void look();
 
@@ -72,6 +76,7 @@ class RobotFinder {
   double localized_probability_ = 1.0;
   std::optional<Registration> look_;
   Se2 odom_at_look_;
+  bool looked_now_ = false;  ///< at the last scan
 };
 
 }  // namespace sketchloc

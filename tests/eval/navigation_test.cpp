@@ -5,6 +5,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "eval/navigation_picture.hpp"
+#include "eval/navigation_record.hpp"
+#include "eval/navigation_summary.hpp"
+
 namespace sketchloc {
 namespace {
 
@@ -15,6 +19,7 @@ NavigationTrial trial(NavigationTrial::End end, double error_m, double way_m) {
   one.way_m = way_m;
   one.shortest_m = 8.0;
   one.cycle_ms = {1.0, 3.0};
+  one.cycle_processor_ms = {1.0, 2.0};
   return one;
 }
 
@@ -44,10 +49,14 @@ TEST(Navigation, ReadsWhatItWrote) {
 TEST(Navigation, DrivesWithoutCollisionAndTheSameForTheSameSeed) {
   NavigationParams params;
   params.most_cycles = 25;
-  const NavigationTask task = navigation_task("human", 0, params, 500);
-  EXPECT_GE(task.shortest_m, params.least_way_m);
+  const NavigationTask task =
+      navigation_task("human", 0, params.task, params.follower.body.radius_m, 500);
+  EXPECT_GE(task.shortest_m, params.task.least_way_m);
   const auto drive = [&] {
-    return navigate(task, localization_method("mcl"), {}, params, nullptr, 3, [] { return 0.0; });
+    const LocalizationParams filter;
+    const auto no_time = [] { return 0.0; };
+    return navigate(task, {.method = localization_method("mcl"), .localization = filter}, params, 3,
+                    {.wall_s = no_time, .processor_s = no_time});
   };
   const NavigationTrial once = drive();
   const NavigationTrial again = drive();
