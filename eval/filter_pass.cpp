@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "motion/check.hpp"
+
 namespace sketchloc {
 namespace {
 
@@ -64,14 +66,18 @@ Localization filter_pass(const Sketch& sketch, const Run& run, const Localizatio
   return result;
 }
 
-Run with_odometry(const Run& run, const LocalizationTask& task,
-                  const MatchedOdometryParams& params) {
-  OdometryFeed odometry(task.odometry, params);
-  Run refined = run;
-  for (RunStep& step : refined.steps) {
+RefinedPass refined_filter_pass(const Sketch& sketch, const Run& run, const LocalizationTask& task,
+                                const LocalizationParams& params,
+                                const std::function<void(std::size_t)>& progress) {
+  check(task.predictor != nullptr, "smoothing registers");
+  RefinedPass pass{.run = run, .task = task, .result = {}};
+  OdometryFeed odometry(task.odometry, params.odometry);
+  for (RunStep& step : pass.run.steps) {
     step.odom_from_robot = odometry.odom_from_robot(step);
   }
-  return refined;
+  pass.task.odometry = OdometrySource::Raw;  // it is refined already
+  pass.result = filter_pass(sketch, pass.run, pass.task, params, progress);
+  return pass;
 }
 
 }  // namespace sketchloc

@@ -9,6 +9,7 @@ void validate(const NavigationParams& params) {
   validate_part("follower", params.follower);
   validate_part("nearby", params.nearby);
   validate_part("task", params.task);
+  validate_part("start", params.start);
   require_above("off_way_m", params.off_way_m, 0.0);
   require_above("replan_m", params.replan_m, 0.0);
   require_at_least("look_m", params.look_m, 0.0);

@@ -19,6 +19,8 @@ struct ConvolutionPlan {
 /// x + two convolutions of x, then ReLU.
 struct ResidualPlan {
   int channels = 1;
+
+  ConvolutionPlan each() const { return {channels, channels, 1}; }
 };
 
 /// Fully connected; the first one takes all cells of all channels. Hidden ones have batch
@@ -29,9 +31,15 @@ struct LinearPlan {
   bool hidden = false;
 };
 
+/// Two convolutions of stride 2 and a residual block.
+struct EncoderPlan {
+  ConvolutionPlan first;
+  ConvolutionPlan second;
+  ResidualPlan third;
+};
+
 /// The first channels of the input are the scan's, the others the drawing's. Each passes through
-/// two convolutions of stride 2 and a residual block of its own; then come both results and their
-/// correlation (see correlate).
+/// an encoder of its own; then come both results and their correlation (see correlate).
 struct MatchPlan {
   int scan_channels = 1;
   int drawing_channels = 1;
@@ -39,6 +47,9 @@ struct MatchPlan {
   int width = 32;
 
   int outputs() const { return 2 * width + kCorrelationShifts; }
+  EncoderPlan encoder(int channels) const {
+    return {{channels, first_width, 2}, {first_width, width, 2}, {width}};
+  }
 };
 
 using LayerPlan = std::variant<ConvolutionPlan, ResidualPlan, MatchPlan, LinearPlan>;

@@ -236,20 +236,15 @@ NormalisedLinear TorchNetwork::make(const LinearPlan& plan) {
 }
 
 NormalisedMatch TorchNetwork::make(const MatchPlan& plan) {
-  NormalisedEncoder scan = make_encoder(plan.scan_channels, plan);
-  return {plan, std::move(scan), make_encoder(plan.drawing_channels, plan)};
+  return {plan, make(plan.encoder(plan.scan_channels)), make(plan.encoder(plan.drawing_channels))};
 }
 
 NormalisedResidual TorchNetwork::make(const ResidualPlan& plan) {
-  const ConvolutionPlan each{plan.channels, plan.channels, 1};
-  NormalisedConvolution first = make(each);
-  return {std::move(first), make(each)};
+  return {make(plan.each()), make(plan.each())};
 }
 
-NormalisedEncoder TorchNetwork::make_encoder(int inputs, const MatchPlan& plan) {
-  NormalisedConvolution first = make(ConvolutionPlan{inputs, plan.first_width, 2});
-  NormalisedConvolution second = make(ConvolutionPlan{plan.first_width, plan.width, 2});
-  return {std::move(first), std::move(second), make(ResidualPlan{plan.width})};
+NormalisedEncoder TorchNetwork::make(const EncoderPlan& plan) {
+  return {make(plan.first), make(plan.second), make(plan.third)};
 }
 
 torch::Tensor TorchNetwork::forward(torch::Tensor values) {
