@@ -123,7 +123,7 @@ void run_navigation_suite(const AblateOptions& options) {
     all += line;
   }
   const double success_m = params.navigation.success_m;
-  write_atomically(out / "report.html", navigation_suite_html(trials, success_m));
+  write_atomically(out / "report.html", navigation_suite_html(trials, success_m, options.seed));
   write_atomically(out / "metrics.json", navigation_suite_json(trials, success_m));
   write_atomically(out / "trials.jsonl", all);
   write_atomically(out / "run.yaml", run_file);

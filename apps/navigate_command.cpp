@@ -14,6 +14,7 @@
 #include "apps/program.hpp"
 #include "apps/run_file.hpp"
 #include "datasets/io/atomic_file.hpp"
+#include "eval/navigation_page.hpp"
 #include "eval/navigation_picture.hpp"
 #include "eval/navigation_record.hpp"
 #include "eval/navigation_summary.hpp"
@@ -58,12 +59,13 @@ void run_navigate(const NavigateOptions& options) {
       params.navigation, options.seed, navigation_clock());
   write_atomically(out / "drive.json", navigation_json(trial));
   write_atomically(out / "picture.png", picture_png(task, trial));
+  write_atomically(out / "report.html", drive_html(task, trial, params.navigation));
   write_atomically(out / "metrics.json",
                    navigation_suite_json({&trial, 1}, params.navigation.success_m));
   write_atomically(out / "run.yaml", run_file_text(description_of(options, params)));
   out.commit();
   std::cout << summary_text(trial, params.navigation.success_m)
-            << "picture: " << (out.target() / "picture.png").string() << "\n";
+            << "report: " << (out.target() / "report.html").string() << "\n";
 }
 
 void add_navigate_command(CLI::App& program) {
@@ -82,7 +84,7 @@ void add_navigate_command(CLI::App& program) {
   add_parameter_options(*command, to_config(NavigateParams{}), options->parameters);
   command
       ->add_option("--out", options->out,
-                   "Folder for drive.json, picture.png, metrics.json and run.yaml")
+                   "Folder for report.html, drive.json, picture.png, metrics.json and run.yaml")
       ->required()
       ->type_name("DIR")
       ->group(kOutputGroup);

@@ -105,9 +105,6 @@ std::unique_ptr<LearningTask> task_of(const TrainOptions& options, const TrainPa
                                    .from = trained_network(options.from)},
                                   plan);
   } catch (const std::runtime_error& error) {
-    if (options.from.empty()) {
-      throw;
-    }
     throw std::runtime_error(options.from.string() + ": " + error.what());
   }
 }

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "motion/check.hpp"
-
 namespace sketchloc {
 namespace {
 
@@ -66,18 +64,14 @@ Localization filter_pass(const Sketch& sketch, const Run& run, const Localizatio
   return result;
 }
 
-RefinedPass refined_filter_pass(const Sketch& sketch, const Run& run, const LocalizationTask& task,
-                                const LocalizationParams& params,
-                                const std::function<void(std::size_t)>& progress) {
-  check(task.predictor != nullptr, "smoothing registers");
-  RefinedPass pass{.run = run, .task = task, .result = {}};
-  OdometryFeed odometry(task.odometry, params.odometry);
-  for (RunStep& step : pass.run.steps) {
+Run with_odometry(const Run& run, const LocalizationTask& task,
+                  const MatchedOdometryParams& params) {
+  OdometryFeed odometry(task.odometry, params);
+  Run refined = run;
+  for (RunStep& step : refined.steps) {
     step.odom_from_robot = odometry.odom_from_robot(step);
   }
-  pass.task.odometry = OdometrySource::Raw;  // it is refined already
-  pass.result = filter_pass(sketch, pass.run, pass.task, params, progress);
-  return pass;
+  return refined;
 }
 
 }  // namespace sketchloc

@@ -12,16 +12,8 @@ Localization filter_pass(const Sketch& sketch, const Run& run, const Localizatio
                          const LocalizationParams& params,
                          const std::function<void(std::size_t)>& progress);
 
-/// A filter's way through a run, and what smoothing goes on with.
-struct RefinedPass {
-  Run run;                ///< with the odometry that the task asked for in the place of the wheels'
-  LocalizationTask task;  ///< the same on that run
-  Localization result;
-};
-
-/// The same as filter_pass(), for a run that is smoothed too: the task has a predictor.
-RefinedPass refined_filter_pass(const Sketch& sketch, const Run& run, const LocalizationTask& task,
-                                const LocalizationParams& params,
-                                const std::function<void(std::size_t)>& progress);
+/// The run with the odometry that the task asks for in the place of the wheels' own.
+Run with_odometry(const Run& run, const LocalizationTask& task,
+                  const MatchedOdometryParams& params);
 
 }  // namespace sketchloc

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <memory>
-#include <utility>
 
 #include "eval/filter_pass.hpp"
 #include "eval/smoothed_localization.hpp"
+#include "motion/check.hpp"
 
 namespace sketchloc {
 
@@ -26,31 +26,40 @@ StepBack filter_back(const Sketch& sketch, const LocalizerParams& params, WarpPr
     if (start) {
       localizer->start_at(*start);
     }
-    return poses_of(believed_by(localizer->step(step.scan, step.odom_from_robot), max_modes));
+    std::vector<Sim2> poses;
+    for (const PoseHypothesis& one :
+         believed_by(localizer->step(step.scan, step.odom_from_robot), max_modes)) {
+      poses.push_back(one.sketch_from_robot);
+    }
+    return poses;
   };
 }
 
 Localization localize_with_lag(const Sketch& sketch, const Run& run, const LocalizationTask& task,
                                const LocalizationParams& params,
                                const std::function<void(std::size_t)>& progress) {
-  auto [refined, pass, result] = refined_filter_pass(sketch, run, task, params, progress);
+  check(task.predictor != nullptr, "smoothing registers");
+  const Run refined = with_odometry(run, task, params.odometry);
+  LocalizationTask pass = task;
+  pass.odometry = OdometrySource::Raw;  // it is refined already
+  Localization result = filter_pass(sketch, refined, pass, params, progress);
   if (result.status != Localization::Status::Done) {
     return result;
   }
   const SketchCropper drawing(sketch);
   LagSmoother smoother({.drawing = drawing,
-                        .predictor = *pass.predictor,
-                        .step_back = filter_back(sketch, params.localizer, *pass.predictor,
+                        .predictor = *task.predictor,
+                        .step_back = filter_back(sketch, params.localizer, *task.predictor,
                                                  params.smoothing.max_modes)},
                        {.lag = params.smoothing.lag,
                         .keyframes = params.smoothing.keyframes,
                         .smoothing = params.smoothing.smoothing,
                         .max_modes = params.smoothing.max_modes},
-                       pass.start_sketch_from_robot);
+                       task.start_sketch_from_robot);
   result.filtered = result.steps;
-  const auto keep = [&smoother, &steps = result.steps] {
+  const auto keep = [&] {
     for (const LaggedPose& lagged : smoother.take()) {
-      steps[lagged.step] = smoothed_report(std::move(steps[lagged.step]), lagged.pose);
+      result.steps[lagged.step] = smoothed_report(result.steps[lagged.step], lagged.pose);
     }
   };
   for (std::size_t i = 0; i < refined.steps.size(); ++i) {

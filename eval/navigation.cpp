@@ -8,7 +8,7 @@
 namespace sketchloc {
 namespace {
 
-constexpr double kCycle_s = 0.5;
+constexpr std::size_t kSeenBeams = 120;  ///< of a scan, enough to see what it saw
 
 bool was_seen(const Eigen::Vector2d& ahead_in_robot, const NearbyObstacles& obstacles,
               const Se2& odom_from_robot, double radius_m) {
@@ -16,6 +16,16 @@ bool was_seen(const Eigen::Vector2d& ahead_in_robot, const NearbyObstacles& obst
   const Grid<float> distance = distance_field_px(window.occupied);
   const std::optional<float> cells = sample(distance, obstacles.cells_from_robot(ahead_in_robot));
   return cells && static_cast<double>(*cells) / *window.px_per_m < radius_m;
+}
+
+std::vector<Eigen::Vector2d> seen_in_robot(const Scan& scan) {
+  const std::vector<Eigen::Vector2d> all = end_points_in_robot(scan);
+  const std::size_t every = 1 + all.size() / kSeenBeams;
+  std::vector<Eigen::Vector2d> some;
+  for (std::size_t i = 0; i < all.size(); i += every) {
+    some.push_back(all[i]);
+  }
+  return some;
 }
 
 NavigationTrial::End end_of(Navigator::Status status) {
@@ -42,7 +52,7 @@ class NotedDrive {
         navigator_(task, params, finder, seed) {
     trial_.shortest_m = task.shortest_m;
     trial_.nearest_m = to_goal_m();
-    trial_.first_path_in_sketch = navigator_.path_in_sketch();
+    trial_.paths_in_sketch = {navigator_.path_in_sketch()};
   }
 
   /// One scan and what is done after it; whether the drive goes on.
@@ -53,9 +63,7 @@ class NotedDrive {
     const std::optional<Se2> step = navigator_.next(measured);
     trial_.cycle_processor_ms.push_back(1e3 * (clock.processor_s() - begin_processor_s));
     trial_.cycle_ms.push_back(1e3 * (clock.wall_s() - begin_s));
-    trial_.frames.push_back({.world_from_robot = robot_.world_from_robot(),
-                             .sketch_from_robot = finder_.sketch_from_robot(),
-                             .localized_probability = finder_.localized_probability()});
+    note(measured.scan);
     if (step) {
       move(*step);
     }
@@ -71,6 +79,20 @@ class NotedDrive {
  private:
   double to_goal_m() const {
     return (robot_.world_from_robot().translation() - task_.goal_in_world).norm();
+  }
+
+  void note(const Scan& scan) {
+    if (navigator_.path_in_sketch() != trial_.paths_in_sketch.back()) {
+      trial_.paths_in_sketch.push_back(navigator_.path_in_sketch());
+    }
+    trial_.frames.push_back({.world_from_robot = robot_.world_from_robot(),
+                             .sketch_from_robot = finder_.sketch_from_robot(),
+                             .position_covariance_px2 = finder_.position_covariance_px2(),
+                             .localized_probability = finder_.localized_probability(),
+                             .doing = navigator_.doing(),
+                             .goal_in_robot = navigator_.goal_in_robot(),
+                             .seen_in_robot = seen_in_robot(scan),
+                             .path = trial_.paths_in_sketch.size() - 1});
   }
 
   void move(const Se2& step) {
@@ -108,7 +130,7 @@ NavigationTrial navigate(const NavigationTask& task, const NavigationMethod& by,
                      task.drawing.sketch_from_world.sketch_from_robot(task.world_from_start));
   NotedDrive drive(task, params, finder, seed);
   for (int cycle = 0; cycle < params.most_cycles; ++cycle) {
-    if (!drive.cycle(kCycle_s * cycle, clock)) {
+    if (!drive.cycle(NavigationTrial::kCycle_s * cycle, clock)) {
       break;
     }
   }

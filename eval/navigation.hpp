@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,13 @@ namespace sketchloc {
 /// The robot at one scan.
 struct NavigationFrame {
   Se2 world_from_robot;
-  Sim2 sketch_from_robot;  ///< as it believes
+  Sim2 sketch_from_robot;                                       ///< as it believes
+  std::optional<Eigen::Matrix2d> position_covariance_px2 = {};  ///< in the sketch frame
   double localized_probability = 1.0;
+  Navigator::Doing doing = Navigator::Doing::Drives;
+  Eigen::Vector2d goal_in_robot = Eigen::Vector2d::Zero();  ///< as it believes, m
+  std::vector<Eigen::Vector2d> seen_in_robot = {};          ///< end points of some beams, m
+  std::size_t path = 0;                                     ///< of paths_in_sketch
   bool collided = false;
 };
 
@@ -24,6 +30,8 @@ struct NavigationTrial {
     Stuck,    ///< no way left
     TooLong
   };
+  static constexpr double kCycle_s = 0.5;  ///< from scan to scan
+
   std::string set;
   std::string kind;
   std::string method;
@@ -37,7 +45,7 @@ struct NavigationTrial {
   std::vector<double> cycle_ms = {};  ///< by the wall clock
   std::vector<double> cycle_processor_ms = {};
   std::vector<NavigationFrame> frames = {};
-  PathPoints first_path_in_sketch = {};
+  std::vector<PathPoints> paths_in_sketch = {};  ///< planned one after the other, at least one
 
   bool success(double within_m) const { return end == End::Arrived && error_m <= within_m; }
 };

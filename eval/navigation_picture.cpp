@@ -61,7 +61,7 @@ std::string picture_png(const NavigationTask& task, const NavigationTrial& trial
   PathLayer planned{.name = "", .colour = detail::kGrey, .width = 1.0, .dashed = true};
   PathLayer believed{.name = "", .colour = detail::kGood};
   PathLayer driven{.name = "", .colour = detail::kGood};
-  planned.lines = {trial.first_path_in_sketch};
+  planned.lines = {trial.paths_in_sketch.front()};
   believed.lines.emplace_back();
   driven.lines.emplace_back();
   for (const NavigationFrame& frame : trial.frames) {

@@ -82,6 +82,25 @@ std::vector<std::string> cells_of(const Row& row) {
           fixed(quantile(row.processor_ms, 0.99), 1)};
 }
 
+/// Drives that failed, and what plays each of them back: a drive is the same for the same seed.
+std::string failures_html(std::span<const NavigationTrial> trials, double success_m,
+                          std::uint64_t seed) {
+  std::vector<std::vector<std::string>> lines;
+  for (const NavigationTrial& trial : trials) {
+    if (!trial.success(success_m)) {
+      const std::string plan = trial.set.substr(trial.set.find(' ') + 1);
+      lines.push_back({trial.set, trial.method, fixed(trial.error_m, 2), fixed(trial.nearest_m, 2),
+                       "sketchloc navigate --person " + trial.kind + " --plan " + plan +
+                           " --method " + trial.method + " --seed " + std::to_string(seed) +
+                           " --out DIR"});
+    }
+  }
+  return "<p>Each of these commands makes a page that plays the drive back. Parameters that were "
+         "given to the suite have to be given again.</p>" +
+         detail::results_table({"drive", "method", "error m", "nearest m", "see it again by"},
+                               lines);
+}
+
 }  // namespace
 
 std::string navigation_suite_json(std::span<const NavigationTrial> trials, double success_m) {
@@ -121,7 +140,8 @@ std::string navigation_suite_markdown(std::span<const NavigationTrial> trials, d
   return text;
 }
 
-std::string navigation_suite_html(std::span<const NavigationTrial> trials, double success_m) {
+std::string navigation_suite_html(std::span<const NavigationTrial> trials, double success_m,
+                                  std::uint64_t seed) {
   std::vector<std::vector<std::string>> lines;
   for (const Row& row : rows_of(trials, success_m)) {
     lines.push_back(cells_of(row));
@@ -132,7 +152,8 @@ std::string navigation_suite_html(std::span<const NavigationTrial> trials, doubl
          " m of the goal. Rates with 95 % Wilson intervals. SPL: success weighted by shortest over "
          "driven way.</p></header><main>" +
          detail::section("Drives to a goal in a drawing", detail::results_table(heads(), lines)) +
-         "</main>" + detail::close_page();
+         detail::section("Drives that failed", failures_html(trials, success_m, seed)) + "</main>" +
+         detail::close_page();
 }
 
 }  // namespace sketchloc

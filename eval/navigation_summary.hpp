@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 
@@ -19,9 +20,11 @@ void visit_fields(NavigationSuiteParams& params, Visitor&& visit) {
   visit("tps_plans", params.tps_plans);
 }
 
-/// Tables of many trials: `metrics.json`, for a document, and a page.
+/// Tables of many trials: `metrics.json`, for a document, and a page, which also says how to see
+/// each drive that failed again.
 std::string navigation_suite_json(std::span<const NavigationTrial> trials, double success_m);
 std::string navigation_suite_markdown(std::span<const NavigationTrial> trials, double success_m);
-std::string navigation_suite_html(std::span<const NavigationTrial> trials, double success_m);
+std::string navigation_suite_html(std::span<const NavigationTrial> trials, double success_m,
+                                  std::uint64_t seed);
 
 }  // namespace sketchloc

@@ -9,7 +9,6 @@ void validate(const NavigationParams& params) {
   validate_part("follower", params.follower);
   validate_part("nearby", params.nearby);
   validate_part("task", params.task);
-  validate_part("start", params.start);
   require_above("off_way_m", params.off_way_m, 0.0);
   require_above("replan_m", params.replan_m, 0.0);
   require_at_least("look_m", params.look_m, 0.0);
@@ -42,7 +41,9 @@ std::optional<Se2> Navigator::next(const RunStep& measured) {
   finder_.look();  // the way is driven through the warp too: rooms have proportions of their own
   obstacles_.add(measured.scan, finder_.odom_from_robot());
   way_.add(finder_.sketch_from_robot());
+  doing_ = Doing::Drives;
   if (finder_.localized_probability() < params_.lost_below && looks_++ < params_.most_looks) {
+    doing_ = Doing::LooksAround;
     replans_ = true;
     return turn_on_the_spot();
   }
@@ -56,6 +57,7 @@ Se2 Navigator::turn_on_the_spot() const {
 
 std::optional<Se2> Navigator::end(Status status) {
   status_ = status;
+  doing_ = status == Status::Arrived ? Doing::Arrives : Doing::GivesUp;
   return std::nullopt;
 }
 
@@ -79,6 +81,7 @@ NextStep Navigator::next_step_to_goal() {
 std::optional<Se2> Navigator::drive_on() {
   if (replans_ || way_since_plan_m_ >= params_.replan_m || !way_.is_on_way(params_.off_way_m)) {
     way_.plan(++seed_);
+    doing_ = Doing::Replans;
     replans_ = false;
     way_since_plan_m_ = 0.0;
   }
@@ -103,6 +106,7 @@ std::optional<Se2> Navigator::blocked() {
   if (goal_in_robot_.norm() <= params_.near_enough_m) {
     return end(Status::Arrived);
   }
+  doing_ = Doing::Blocked;
   replans_ = true;
   return ++blocked_ < params_.most_blocked ? std::optional(turn_on_the_spot()) : end(Status::Stuck);
 }

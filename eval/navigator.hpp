@@ -72,6 +72,16 @@ class Navigator {
     Stuck     ///< no way left
   };
 
+  /// What it does after a scan.
+  enum class Doing {
+    Drives,
+    Replans,      ///< plans anew and drives on
+    LooksAround,  ///< turns on the spot: it does not know where it is
+    Blocked,      ///< turns on the spot: what was seen leaves no way
+    Arrives,      ///< stops, as it believes at the goal
+    GivesUp
+  };
+
   /// Plans the first way. Task, parameters and finder must outlive the navigator.
   Navigator(const NavigationTask& task, const NavigationParams& params, RobotFinder& finder,
             std::uint64_t seed);
@@ -80,6 +90,7 @@ class Navigator {
   std::optional<Se2> next(const RunStep& measured);
 
   Status status() const { return status_; }
+  Doing doing() const { return doing_; }
   const NearbyObstacles& obstacles() const { return obstacles_; }
   const PathPoints& path_in_sketch() const { return way_.path_in_sketch(); }
   /// In the robot's metres, of the last scan.
@@ -106,6 +117,7 @@ class Navigator {
   int blocked_ = 0;
   int looks_ = 0;
   Status status_ = Status::Drives;
+  Doing doing_ = Doing::Drives;
 };
 
 }  // namespace sketchloc

@@ -86,6 +86,7 @@ void RobotFinder::step(const RunStep& step) {
   }
   const StepReport& report = localizer_->step(step.scan, odom_from_robot_);
   sketch_from_robot_ = report.estimate.sketch_from_robot;
+  position_covariance_px2_ = report.estimate.covariance.topLeftCorner<2, 2>();
   localized_probability_ = report.localized_probability;
 }
 

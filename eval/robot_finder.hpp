@@ -49,6 +49,10 @@ class RobotFinder {
   void step(const RunStep& step);
 
   const Sim2& sketch_from_robot() const { return sketch_from_robot_; }
+  /// Of the position, sketch frame; none where the method does not tell.
+  const std::optional<Eigen::Matrix2d>& position_covariance_px2() const {
+    return position_covariance_px2_;
+  }
   double localized_probability() const { return localized_probability_; }
   const Se2& odom_from_robot() const { return odom_from_robot_; }
 
@@ -73,6 +77,7 @@ class RobotFinder {
   RecentScans recent_;
   Sim2 sketch_from_robot_;
   Se2 odom_from_robot_;
+  std::optional<Eigen::Matrix2d> position_covariance_px2_;
   double localized_probability_ = 1.0;
   std::optional<Registration> look_;
   Se2 odom_at_look_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "eval/filter_pass.hpp"
+#include "motion/check.hpp"
 
 namespace sketchloc {
 namespace {
@@ -64,9 +65,19 @@ KeyframeRun registered_keyframes(const Run& run, const std::vector<std::vector<S
 /// The filter's reports with the smoothed poses in the place of its own.
 std::vector<StepReport> smoothed_steps(std::vector<StepReport> steps, const Run& run,
                                        const KeyframeRun& keyframes, const SmoothedRun& smoothed) {
+  std::vector<Se2> odom_from_robot;
+  for (const RunStep& step : run.steps) {
+    odom_from_robot.push_back(step.odom_from_robot);
+  }
+  const std::vector<Sim2> poses = carried_poses(keyframes, smoothed.poses, odom_from_robot);
+  std::size_t last = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
-    steps[i] = smoothed_report(std::move(steps[i]), carried_pose(keyframes, smoothed.poses, i,
-                                                                 run.steps[i].odom_from_robot));
+    while (last + 1 < keyframes.keyframes.size() && keyframes.keyframes[last + 1].step <= i) {
+      ++last;
+    }
+    SmoothedPose pose = smoothed.poses[last];
+    pose.sketch_from_robot = poses[i];
+    steps[i] = smoothed_report(std::move(steps[i]), pose);
   }
   return steps;
 }
@@ -87,7 +98,11 @@ StepReport smoothed_report(StepReport report, const SmoothedPose& pose) {
 Localization localize_and_smooth(const Sketch& sketch, const Run& run, const LocalizationTask& task,
                                  const LocalizationParams& params,
                                  const std::function<void(std::size_t)>& progress) {
-  auto [refined, pass, result] = refined_filter_pass(sketch, run, task, params, progress);
+  check(task.predictor != nullptr, "smoothing registers");
+  const Run refined = with_odometry(run, task, params.odometry);
+  LocalizationTask pass = task;
+  pass.odometry = OdometrySource::Raw;  // it is refined already
+  Localization result = filter_pass(sketch, refined, pass, params, progress);
   if (result.status != Localization::Status::Done) {
     return result;
   }

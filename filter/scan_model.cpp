@@ -32,7 +32,8 @@ ScanModel::ScanModel(const Sketch& sketch, const RangeTable& table, const Locali
     : model_(make_model(sketch, table, params)),
       exponent_(params.measurement == Measurement::Beams ? params.beams.exponent
                                                          : params.end_points.exponent),
-      jobs_(params.jobs) {}
+      jobs_(params.jobs),
+      unbent_scores_(params.particles.max_particles) {}
 
 std::size_t ScanModel::observe(const Scan& scan) {
   return std::visit([&](auto& model) { return model.observe(scan); }, model_);

@@ -26,14 +26,6 @@ PoseHypothesis hypothesis_of(const Sim2& sketch_from_robot,
           .inlier_probability = inlier_probability};
 }
 
-std::vector<Sim2> poses_of(std::span<const PoseHypothesis> hypotheses) {
-  std::vector<Sim2> poses;
-  for (const PoseHypothesis& one : hypotheses) {
-    poses.push_back(one.sketch_from_robot);
-  }
-  return poses;
-}
-
 Eigen::Matrix4d covariance_in_sketch(const PoseHypothesis& hypothesis) {
   const Eigen::Matrix4d jacobian = sketch_by_robot(hypothesis.sketch_from_robot);
   return jacobian * hypothesis.covariance * jacobian.transpose();

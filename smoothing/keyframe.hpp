@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "motion/se2.hpp"
@@ -27,8 +26,6 @@ PoseHypothesis hypothesis_of(const Sim2& sketch_from_robot,
 
 /// The covariance of a hypothesis in the sketch frame, as above.
 Eigen::Matrix4d covariance_in_sketch(const PoseHypothesis& hypothesis);
-
-std::vector<Sim2> poses_of(std::span<const PoseHypothesis> hypotheses);
 
 /// One of the instants, a little way apart, at which smoothing looks.
 struct Keyframe {

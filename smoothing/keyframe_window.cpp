@@ -20,6 +20,14 @@ double side_way_m(const KeyframeParams& params) {
   return params.submap.spacing_m * (params.submap.max_scans - 1);
 }
 
+std::vector<Sim2> poses_of(std::span<const PoseHypothesis> hypotheses) {
+  std::vector<Sim2> poses;
+  for (const PoseHypothesis& one : hypotheses) {
+    poses.push_back(one.sketch_from_robot);
+  }
+  return poses;
+}
+
 }  // namespace
 
 void validate(const HindsightParams& params) {

@@ -95,9 +95,14 @@ bool LagSmoother::do_task(const Task& task) {
     case Task::Kind::LookAsItCame:
       window_.look_as_it_came(task.keyframe);
       return true;
-    case Task::Kind::LookBack:
-      window_.look_back(task.keyframe, poses_of(window_.believed_at(task.keyframe)));
+    case Task::Kind::LookBack: {
+      std::vector<Sim2> priors;
+      for (const PoseHypothesis& one : window_.believed_at(task.keyframe)) {
+        priors.push_back(one.sketch_from_robot);
+      }
+      window_.look_back(task.keyframe, priors);
       return true;
+    }
     case Task::Kind::GoBack:
       return go_back(task.keyframe);
     case Task::Kind::Smooth:
@@ -162,12 +167,18 @@ void LagSmoother::smooth_until(std::size_t keyframe, double until_way_m) {
 
 void LagSmoother::give_out(const KeyframeRun& run, std::span<const SmoothedPose> poses,
                            double until_way_m) {
+  std::size_t last = 0;
   while (!waiting_.empty() && waiting_.front().way_m <= until_way_m) {
     const Instant& now = waiting_.front();
+    while (last + 1 < run.keyframes.size() && run.keyframes[last + 1].step <= now.step) {
+      ++last;
+    }
+    SmoothedPose pose = poses[last];
+    pose.sketch_from_robot = carried_pose(run, poses, now.step, now.odom_from_robot);
     found_.push_back({.step = now.step,
                       .time_s = now.time_s,
                       .way_m = window_.way_m() - now.way_m,
-                      .pose = carried_pose(run, poses, now.step, now.odom_from_robot)});
+                      .pose = pose});
     waiting_.pop_front();
   }
 }

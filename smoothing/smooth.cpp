@@ -166,8 +166,8 @@ SmoothedRun smooth(const KeyframeRun& run, const SmoothingParams& params) {
   return result;
 }
 
-SmoothedPose carried_pose(const KeyframeRun& run, std::span<const SmoothedPose> smoothed,
-                          std::size_t step, const Se2& odom_from_robot) {
+Sim2 carried_pose(const KeyframeRun& run, std::span<const SmoothedPose> smoothed, std::size_t step,
+                  const Se2& odom_from_robot) {
   check(!smoothed.empty() && smoothed.size() == run.keyframes.size(), "a pose per keyframe");
   const auto carried = [&](std::size_t k) {
     return smoothed[k].sketch_from_robot *
@@ -175,15 +175,26 @@ SmoothedPose carried_pose(const KeyframeRun& run, std::span<const SmoothedPose> 
   };
   const auto after = std::ranges::upper_bound(run.keyframes, step, {}, &Keyframe::step);
   const auto next = static_cast<std::size_t>(after - run.keyframes.begin());
-  const std::size_t last = next == 0 ? 0 : next - 1;
-  SmoothedPose pose = smoothed[last];
-  pose.sketch_from_robot = carried(last);
-  if (next > 0 && next < run.keyframes.size() && step > run.keyframes[last].step) {
-    const double share = static_cast<double>(step - run.keyframes[last].step) /
-                         static_cast<double>(run.keyframes[next].step - run.keyframes[last].step);
-    pose.sketch_from_robot = interpolate(pose.sketch_from_robot, carried(next), share);
+  if (next == 0) {
+    return carried(0);
   }
-  return pose;
+  const std::size_t last = next - 1;
+  const std::size_t since = step - run.keyframes[last].step;
+  if (next == run.keyframes.size() || since == 0) {
+    return carried(last);
+  }
+  const double share = static_cast<double>(since) /
+                       static_cast<double>(run.keyframes[next].step - run.keyframes[last].step);
+  return interpolate(carried(last), carried(next), share);
+}
+
+std::vector<Sim2> carried_poses(const KeyframeRun& run, std::span<const SmoothedPose> smoothed,
+                                std::span<const Se2> odom_from_robot) {
+  std::vector<Sim2> poses;
+  for (std::size_t step = 0; step < odom_from_robot.size(); ++step) {
+    poses.push_back(carried_pose(run, smoothed, step, odom_from_robot[step]));
+  }
+  return poses;
 }
 
 }  // namespace sketchloc

@@ -39,9 +39,12 @@ PoseGraph branch_graph(const KeyframeRun& run, const Branch& branch, const Smoot
 SmoothedRun smooth(const KeyframeRun& run, const SmoothingParams& params = {});
 
 /// The pose at a step, carried by odometry from the keyframes around it, each as much as it is
-/// near; before the first and after the last one from that one. Known as well as that of the
-/// keyframe before it.
-SmoothedPose carried_pose(const KeyframeRun& run, std::span<const SmoothedPose> smoothed,
-                          std::size_t step, const Se2& odom_from_robot);
+/// near; before the first and after the last one from that one.
+Sim2 carried_pose(const KeyframeRun& run, std::span<const SmoothedPose> smoothed, std::size_t step,
+                  const Se2& odom_from_robot);
+
+/// The poses at all steps of a run.
+std::vector<Sim2> carried_poses(const KeyframeRun& run, std::span<const SmoothedPose> smoothed,
+                                std::span<const Se2> odom_from_robot);
 
 }  // namespace sketchloc

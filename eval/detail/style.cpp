@@ -97,15 +97,26 @@ table{font-size:.82rem}.scroll th,.scroll td{padding-right:.35rem;white-space:no
 @media print{section{break-inside:avoid}}
 )css";
 
+constexpr const char* kPlayer = R"css(
+.player{display:grid;gap:.8rem;grid-template-columns:repeat(auto-fit,minmax(min(22rem,100%),1fr))}
+.player canvas{display:block;width:100%;background:#fff;border:1px solid var(--line);
+border-radius:.3rem}
+.controls{display:flex;flex-wrap:wrap;gap:.4rem .8rem;align-items:center;margin:.6rem 0}
+.controls input[type=range]{flex:1 1 12rem}.controls button{min-width:5rem}
+.controls button,.controls select{font:inherit;padding:.15rem .6rem}
+.state{min-height:3em;font-variant-numeric:tabular-nums}
+)css";
+
 }  // namespace
 
-std::string open_page(std::string_view title) {
+std::string open_page(std::string_view title, Scripts scripts) {
   return std::string("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"/>") +
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>" +
          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-         "img-src data:; style-src 'unsafe-inline'\"/><title>" +
+         "img-src data:; style-src 'unsafe-inline'" +
+         (scripts == Scripts::OwnAlone ? "; script-src 'unsafe-inline'" : "") + "\"/><title>" +
          escaped(title) + "</title><style>" + kColours + kText + kVerdict + kPictures + kCharts +
-         "</style></head>\n<body>";
+         kPlayer + "</style></head>\n<body>";
 }
 
 std::string close_page() {

@@ -19,8 +19,6 @@ struct ConvolutionPlan {
 /// x + two convolutions of x, then ReLU.
 struct ResidualPlan {
   int channels = 1;
-
-  ConvolutionPlan each() const { return {channels, channels, 1}; }
 };
 
 /// Fully connected; the first one takes all cells of all channels. Hidden ones have batch
@@ -31,15 +29,9 @@ struct LinearPlan {
   bool hidden = false;
 };
 
-/// Two convolutions of stride 2 and a residual block.
-struct EncoderPlan {
-  ConvolutionPlan first;
-  ConvolutionPlan second;
-  ResidualPlan third;
-};
-
 /// The first channels of the input are the scan's, the others the drawing's. Each passes through
-/// an encoder of its own; then come both results and their correlation (see correlate).
+/// two convolutions of stride 2 and a residual block of its own; then come both results and their
+/// correlation (see correlate).
 struct MatchPlan {
   int scan_channels = 1;
   int drawing_channels = 1;
@@ -47,9 +39,6 @@ struct MatchPlan {
   int width = 32;
 
   int outputs() const { return 2 * width + kCorrelationShifts; }
-  EncoderPlan encoder(int channels) const {
-    return {{channels, first_width, 2}, {first_width, width, 2}, {width}};
-  }
 };
 
 using LayerPlan = std::variant<ConvolutionPlan, ResidualPlan, MatchPlan, LinearPlan>;

@@ -44,19 +44,17 @@ class GraphReader {
             .bias = tensor(node, 2, static_cast<std::size_t>(plan.outputs))};
   }
 
-  // Braces read from left to right, as the graph has its layers.
   Residual read(const ResidualPlan& plan) {
-    return {.first = read(plan.each()), .second = read(plan.each())};
-  }
-
-  Encoder read(const EncoderPlan& plan) {
-    return {.first = read(plan.first), .second = read(plan.second), .third = read(plan.third)};
+    const ConvolutionPlan each{plan.channels, plan.channels, 1};
+    Convolution first = read(each);
+    return {.first = std::move(first), .second = read(each)};
   }
 
   Match read(const MatchPlan& plan) {
+    Encoder scan = read_encoder(plan.scan_channels, plan);
     return {.plan = plan,
-            .scan = read(plan.encoder(plan.scan_channels)),
-            .drawing = read(plan.encoder(plan.drawing_channels))};
+            .scan = std::move(scan),
+            .drawing = read_encoder(plan.drawing_channels, plan)};
   }
 
   Linear read(const LinearPlan& plan) {
@@ -74,6 +72,12 @@ class GraphReader {
   }
 
  private:
+  Encoder read_encoder(int inputs, const MatchPlan& plan) {
+    Convolution first = read(ConvolutionPlan{inputs, plan.first_width, 2});
+    Convolution second = read(ConvolutionPlan{plan.first_width, plan.width, 2});
+    return {std::move(first), std::move(second), read(ResidualPlan{plan.width})};
+  }
+
   /// Of the nodes from here on, the first one that has numbers.
   int next_layer() const {
     int node = node_;

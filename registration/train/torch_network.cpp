@@ -236,15 +236,20 @@ NormalisedLinear TorchNetwork::make(const LinearPlan& plan) {
 }
 
 NormalisedMatch TorchNetwork::make(const MatchPlan& plan) {
-  return {plan, make(plan.encoder(plan.scan_channels)), make(plan.encoder(plan.drawing_channels))};
+  NormalisedEncoder scan = make_encoder(plan.scan_channels, plan);
+  return {plan, std::move(scan), make_encoder(plan.drawing_channels, plan)};
 }
 
 NormalisedResidual TorchNetwork::make(const ResidualPlan& plan) {
-  return {make(plan.each()), make(plan.each())};
+  const ConvolutionPlan each{plan.channels, plan.channels, 1};
+  NormalisedConvolution first = make(each);
+  return {std::move(first), make(each)};
 }
 
-NormalisedEncoder TorchNetwork::make(const EncoderPlan& plan) {
-  return {make(plan.first), make(plan.second), make(plan.third)};
+NormalisedEncoder TorchNetwork::make_encoder(int inputs, const MatchPlan& plan) {
+  NormalisedConvolution first = make(ConvolutionPlan{inputs, plan.first_width, 2});
+  NormalisedConvolution second = make(ConvolutionPlan{plan.first_width, plan.width, 2});
+  return {std::move(first), std::move(second), make(ResidualPlan{plan.width})};
 }
 
 torch::Tensor TorchNetwork::forward(torch::Tensor values) {

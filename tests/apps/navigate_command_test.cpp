@@ -45,6 +45,7 @@ TEST_F(NavigateEndToEnd, DrivesAndKeepsWhatHappened) {
   EXPECT_EQ(drive["frames"].size(), 3U);
   EXPECT_EQ(drive["end"], "too long");
   EXPECT_THAT(content_of(folder_ / "out/picture.png"), HasSubstr("PNG"));
+  EXPECT_THAT(content_of(folder_ / "out/report.html"), HasSubstr("id=\"player\""));
 }
 
 TEST_F(NavigateEndToEnd, NamesTheOptionThatMakesNoSense) {
@@ -73,6 +74,8 @@ TEST_F(NavigateEndToEnd, ASuiteOfDrivesIsATableOfRates) {
   EXPECT_THAT(result.out, HasSubstr("| human | mcl | 0/2 = 0 % ["));
   EXPECT_EQ(metrics()["rows"].size(), 2U);
   EXPECT_THAT(content_of(folder_ / "out/report.html"), HasSubstr("Ablation: navigation"));
+  EXPECT_THAT(content_of(folder_ / "out/report.html"),
+              HasSubstr("sketchloc navigate --person human --plan 1 --method mcl --seed 500"));
 }
 
 TEST_F(NavigateEndToEnd, ASuiteOfPlansIsATableToo) {

@@ -58,9 +58,9 @@ class TorchNetwork : public torch::nn::Module {
 
   NormalisedConvolution make(const ConvolutionPlan& plan);
   NormalisedResidual make(const ResidualPlan& plan);
-  NormalisedEncoder make(const EncoderPlan& plan);
   NormalisedMatch make(const MatchPlan& plan);
   NormalisedLinear make(const LinearPlan& plan);
+  NormalisedEncoder make_encoder(int inputs, const MatchPlan& plan);
 
   NetworkPlan plan_;
   bool normalise_;
