@@ -38,6 +38,12 @@ StartPose place_from(const std::string& text, const std::string& flag) {
   return parse_start_pose(has_heading ? text : text + ",0", flag);
 }
 
+/// Of a place as people type it, where it has one.
+std::optional<double> heading_of(const std::string& text, const std::string& flag) {
+  return std::ranges::count(text, ',') > 1 ? std::optional(place_from(text, flag).heading_rad)
+                                           : std::nullopt;
+}
+
 ScaleField scale_field(const PlanOptions& options, const Sketch& sketch, const StartPose& start,
                        const ScaleFieldParams& params) {
   if (!options.scales.empty()) {
@@ -69,7 +75,9 @@ PlanRecord made_plan(const PlanOptions& options, const PlanCommandParams& params
   record.prepare_ms = ms_since(begin);
   record.params = params.planning;
   record.query = {.start_in_sketch = start.place_in_sketch,
-                  .goal_in_sketch = place_from(options.goal, "--goal").place_in_sketch};
+                  .goal_in_sketch = place_from(options.goal, "--goal").place_in_sketch,
+                  .start_heading_rad = heading_of(options.start, "--start"),
+                  .goal_heading_rad = heading_of(options.goal, "--goal")};
   const Clock::time_point asked = Clock::now();
   PlanWatch watch{.found = [&](const Plan& better) {
     record.stages.push_back({better.source, better.figures, ms_since(asked)});
@@ -114,6 +122,12 @@ std::string complaint_of(const PlanRecord& record) {
         ": the robot needs {:.2f} m on each side; where a door may be drawn shut, allow crossings "
         "with --planning.crossing_cost_m",
         record.params.body.clear_m());
+  } else if (plan.status == Plan::Status::TooTight) {
+    text += fmt::format(
+        ": a robot that turns on the spot gets there, one with a turning radius of {:.2f} m does "
+        "not; give a smaller --planning.turning_radius_m, or leave the heading at --start or "
+        "--goal open",
+        record.params.turning_radius_m);
   } else if (plan.status == Plan::Status::OutOfTime) {
     text += "; give a longer --deadline-ms, or 0 for none";
   }
@@ -139,15 +153,16 @@ void add_algorithm_options(CLI::App& command, PlanOptions& options) {
       ->type_name("DRAWING");
   add_drawing_options(command, options.drawing, "Of the drawing");
   option("--start", options.start,
-         "Where the robot is: x right and y up from the lower left corner in px; the heading does "
-         "not matter, px per m tell how large the robot is")
+         "Where the robot is: x right and y up from the lower left corner in px; the heading "
+         "matters with a turning radius alone, px per m tell how large the robot is")
       ->required()
       ->check([](const std::string& text) { return place_from(text, "--start"), std::string(); })
       ->type_name("X,Y[,HEADING_DEG[,PX_PER_M]]");
-  option("--goal", options.goal, "Where it wants to be")
+  option("--goal", options.goal,
+         "Where it wants to be; with a turning radius, a heading may be asked for")
       ->required()
       ->check([](const std::string& text) { return place_from(text, "--goal"), std::string(); })
-      ->type_name("X,Y");
+      ->type_name("X,Y[,HEADING_DEG]");
   option("--scales", options.scales,
          "trajectory.csv of a run localized in this drawing: how large a metre is where")
       ->type_name("FILE.csv");

@@ -29,7 +29,7 @@ void visit_fields(PlanCommandParams& params, Visitor&& visit) {
 struct PlanOptions {
   std::filesystem::path map;
   std::string start;             ///< "X,Y[,HEADING_DEG[,PX_PER_M]]" in the sketch frame
-  std::string goal;              ///< "X,Y"
+  std::string goal;              ///< "X,Y[,HEADING_DEG]"
   std::filesystem::path scales;  ///< trajectory.csv of a localized run; empty: none
   double deadline_ms = 100.0;    ///< 0: none
   std::uint64_t seed = 1;

@@ -1,11 +1,18 @@
 #include "eval/navigator.hpp"
 
+#include <stdexcept>
+
 #include "motion/validate.hpp"
 
 namespace sketchloc {
 
 void validate(const NavigationParams& params) {
   validate_part("planning", params.planning);
+  if (params.planning.turning_radius_m > 0.0) {
+    throw std::invalid_argument(
+        "planning.turning_radius_m: a drive turns on the spot and cannot keep to a radius; leave "
+        "it 0, or plan with it by `sketchloc plan`");
+  }
   validate_part("follower", params.follower);
   validate_part("nearby", params.nearby);
   validate_part("task", params.task);

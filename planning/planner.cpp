@@ -1,17 +1,20 @@
 #include "planning/planner.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
 #include "planning/path_improver.hpp"
 #include "planning/random_tree.hpp"
+#include "planning/turning_search.hpp"
 
 namespace sketchloc {
 namespace {
 
 constexpr std::uint64_t kImproverStream = 1ULL << 32;  // far from those of the trees
 constexpr int kTellEvery = 500;
+constexpr int kMostShortcuts = 300;  ///< of curves, which are long to try
 
 Plan plan_of(PathPoints path_in_sketch, Plan::Source source, const FreeSpace& space) {
   Plan plan;
@@ -38,6 +41,7 @@ void validate(const PlanParams& params) {
   if (params.crossing_cost_m) {
     require_above("crossing_cost_m", *params.crossing_cost_m, 0.0);
   }
+  require_at_least("turning_radius_m", params.turning_radius_m, 0.0);
   require_at_least("tree_nodes", params.tree_nodes, 0.0);
   require_at_least("improvements", params.improvements, 0.0);
 }
@@ -58,6 +62,8 @@ std::string_view name_of(Plan::Status status) {
       return "goal blocked";
     case Plan::Status::NoPath:
       return "no path";
+    case Plan::Status::TooTight:
+      return "too tight to turn";
     case Plan::Status::OutOfTime:
       return "out of time";
   }
@@ -76,6 +82,8 @@ std::string_view name_of(Plan::Source source) {
       return "grid";
     case Plan::Source::Improvement:
       return "improvement";
+    case Plan::Source::Turning:
+      return "turning";
   }
   return "";
 }
@@ -160,6 +168,9 @@ Planner::OnGrid Planner::search(const FreeSpace& space, const PlanQuery& query, 
 
 Plan Planner::plan_in(const FreeSpace& space, const PlanQuery& query, std::uint64_t seed,
                       const PlanWatch& watch) const {
+  if (params_.turning_radius_m > 0.0) {
+    return plan_turning(space, query, seed, watch);
+  }
   std::optional<Plan> best = first_path(space, query, seed);
   if (!best) {  // by length: soon found, and certain where there is no way at all
     OnGrid found = search(space, query, GridPrice::Length, watch);
@@ -179,6 +190,38 @@ Plan Planner::plan_in(const FreeSpace& space, const PlanQuery& query, std::uint6
   }
   improve(*best, space, seed, watch);
   return *std::move(best);
+}
+
+/// A way of arcs, then a shorter one.
+Plan Planner::plan_turning(const FreeSpace& space, const PlanQuery& query, std::uint64_t seed,
+                           const PlanWatch& watch) const {
+  using Status = TurningSearch::Status;
+  const double radius_px = params_.turning_radius_m / space.least_m_per_px();
+  const TurningSearch searched = search_turning(space,
+                                                {.start_in_sketch = query.start_in_sketch,
+                                                 .goal_in_sketch = query.goal_in_sketch,
+                                                 .start_heading_rad = query.start_heading_rad,
+                                                 .goal_heading_rad = query.goal_heading_rad,
+                                                 .radius_px = radius_px},
+                                                [&] { return is_over(watch); });
+  if (searched.status != Status::Found) {
+    const bool may_pass = search(space, query, GridPrice::Length, {}).plan.has_value();
+    Plan nothing;
+    nothing.status = searched.status == Status::OutOfTime ? Plan::Status::OutOfTime
+                     : may_pass                           ? Plan::Status::TooTight
+                                                          : Plan::Status::NoPath;
+    return nothing;
+  }
+  tell(watch, plan_of(places_of(searched.curve), Plan::Source::Turning, space));
+  const TurningCurve shorter = shortened(searched.curve, space,
+                                         {.radius_px = radius_px,
+                                          .tries = std::min(params_.improvements, kMostShortcuts),
+                                          .seed = seed},
+                                         [&] { return is_over(watch); });
+  Plan plan = plan_of(places_of(shorter), Plan::Source::Improvement, space);
+  tell(watch, plan);
+  check(is_free(plan.path_in_sketch, space), "a way that is given away is free");
+  return plan;
 }
 
 void Planner::improve(Plan& plan, const FreeSpace& space, std::uint64_t seed,

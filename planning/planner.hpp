@@ -18,6 +18,9 @@ struct PlanParams {
   /// Strokes may be crossed where there is no other way, at the cost of so many metres: doors are
   /// drawn shut. None: never. Walls that were forgotten cannot be known.
   std::optional<double> crossing_cost_m = std::nullopt;
+  /// Least one that the robot drives forwards, >= 0; 0: it turns on the spot. In px it is that of
+  /// the place where a metre is largest in the drawing, and so nowhere less in real metres.
+  double turning_radius_m = 0.0;
   int tree_nodes = 1000;     ///< tries of the random trees before the grid is searched, >= 0
   int improvements = 20000;  ///< tries to improve the way at most, >= 0
 };
@@ -28,6 +31,7 @@ void visit_fields(PlanParams& params, Visitor&& visit) {
   visit("body", params.body);
   visit("move_ends_m", params.move_ends_m);
   visit("crossing_cost_m", params.crossing_cost_m);
+  visit("turning_radius_m", params.turning_radius_m);
   visit("tree_nodes", params.tree_nodes);
   visit("improvements", params.improvements);
 }
@@ -39,6 +43,9 @@ struct PlanQuery {
   Eigen::Vector2d start_in_sketch = Eigen::Vector2d::Zero();
   Eigen::Vector2d goal_in_sketch = Eigen::Vector2d::Zero();
   PathPoints last_path_in_sketch = {};  ///< an earlier way to the same goal; empty: none
+  /// Where a robot looks that cannot turn on the spot, in the sketch frame; none: anywhere.
+  std::optional<double> start_heading_rad = std::nullopt;
+  std::optional<double> goal_heading_rad = std::nullopt;
 };
 
 struct Plan {
@@ -50,10 +57,11 @@ struct Plan {
     GoalOutside,
     GoalBlocked,
     NoPath,    ///< certain, as far as px tell
+    TooTight,  ///< nothing was found with the turning radius, though there is room to pass
     OutOfTime  ///< nothing was found before
   };
   /// What brought the way.
-  enum class Source { LastPath, Line, Trees, Grid, Improvement };
+  enum class Source { LastPath, Line, Trees, Grid, Improvement, Turning };
 
   Status status = Status::NoPath;
   PathPoints path_in_sketch = {};  ///< where found, from the start or the free place near it
@@ -98,6 +106,8 @@ class Planner {
                                  std::uint64_t seed) const;
   std::optional<Plan> blocked_end(const PlanQuery& query) const;
   std::optional<Eigen::Vector2d> moved_end(const Eigen::Vector2d& end_in_sketch) const;
+  Plan plan_turning(const FreeSpace& space, const PlanQuery& query, std::uint64_t seed,
+                    const PlanWatch& watch) const;
   void improve(Plan& plan, const FreeSpace& space, std::uint64_t seed,
                const PlanWatch& watch) const;
 

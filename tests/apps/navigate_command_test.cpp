@@ -49,16 +49,18 @@ TEST_F(NavigateEndToEnd, DrivesAndKeepsWhatHappened) {
 }
 
 TEST_F(NavigateEndToEnd, NamesTheOptionThatMakesNoSense) {
-  const std::vector<std::vector<std::string>> wrong = {{"--plan", "-1"},
-                                                       {"--person", "dog"},
-                                                       {"--method", "odometry"},
-                                                       {"--method", "dog"},
-                                                       {"--seed", "-3"},
-                                                       {"--navigation.replan_m", "0"},
-                                                       {"--navigation.off_way_m", "-1"},
-                                                       {"--navigation.goal_looks", "0"},
-                                                       {"--navigation.task.most_way_m", "1"},
-                                                       {"--navigation.start.position_m", "-1"}};
+  const std::vector<std::vector<std::string>> wrong = {
+      {"--plan", "-1"},
+      {"--person", "dog"},
+      {"--method", "odometry"},
+      {"--method", "dog"},
+      {"--seed", "-3"},
+      {"--navigation.planning.turning_radius_m", "0.5"},
+      {"--navigation.replan_m", "0"},
+      {"--navigation.off_way_m", "-1"},
+      {"--navigation.goal_looks", "0"},
+      {"--navigation.task.most_way_m", "1"},
+      {"--navigation.start.position_m", "-1"}};
   for (const std::vector<std::string>& flags : wrong) {
     const CommandResult result = navigate(flags);
     EXPECT_NE(result.exit_code, 0) << flags[0];

@@ -76,6 +76,17 @@ TEST_F(PlanEndToEnd, WantsToKnowTheScale) {
   EXPECT_THAT(result.err, HasSubstr("PX_PER_M"));
 }
 
+TEST_F(PlanEndToEnd, KeepsToATurningRadiusOrSaysThatItCannot) {
+  EXPECT_EQ(plan("145,285,180,17.3", "437,272,180", {"--planning.turning_radius_m", "1"}).exit_code,
+            0);
+  EXPECT_THAT(content_of(folder_ / "out/metrics.json"), HasSubstr("\"source\": \"turning\""));
+  const CommandResult tight =
+      plan("145,285,180,17.3", "437,272", {"--planning.turning_radius_m", "5"});
+  EXPECT_EQ(tight.exit_code, 1);
+  EXPECT_THAT(tight.err, HasSubstr("too tight to turn"));
+  EXPECT_THAT(tight.err, HasSubstr("--planning.turning_radius_m"));
+}
+
 TEST_F(PlanEndToEnd, CrossesShutDoorsWhereAllowed) {
   const std::vector<std::string> huge = {"--planning.body.radius_m", "0.9"};
   EXPECT_EQ(plan("145,285,0,17.3", "437,272", huge).exit_code, 1);
