@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "registration/distance_field.hpp"
+
 namespace sketchloc {
 namespace {
 
@@ -12,7 +14,9 @@ constexpr double kSampleSpacing_m = 0.5;  ///< scales nearer to each other tell 
 
 DrawnWay::DrawnWay(const Sketch& sketch, const Eigen::Vector2d& goal_in_sketch,
                    const PlanParams& params)
-    : sketch_(sketch), goal_in_sketch_(goal_in_sketch), params_(params) {}
+    : stroke_distance_px_(distance_field_px(sketch.occupied)),
+      goal_in_sketch_(goal_in_sketch),
+      params_(params) {}
 
 void DrawnWay::add(const Sim2& sketch_from_robot) {
   sketch_from_robot_ = sketch_from_robot;
@@ -26,8 +30,8 @@ void DrawnWay::add(const Sim2& sketch_from_robot) {
 }
 
 void DrawnWay::plan(std::uint64_t seed) {
-  const Planner planner(sketch_, ScaleField(sketch_.width_px(), sketch_.height_px(), samples_),
-                        params_);
+  const ScaleField scale(stroke_distance_px_.width(), stroke_distance_px_.height(), samples_);
+  const Planner planner(stroke_distance_px_, scale, params_);
   const Plan plan = planner.plan({.start_in_sketch = sketch_from_robot_.translation(),
                                   .goal_in_sketch = goal_in_sketch_,
                                   .last_path_in_sketch = path_},

@@ -13,7 +13,6 @@ namespace sketchloc {
 /// The way to a goal in a drawing, by the scales that the robot found in it so far.
 class DrawnWay {
  public:
-  /// The sketch must outlive the way.
   DrawnWay(const Sketch& sketch, const Eigen::Vector2d& goal_in_sketch, const PlanParams& params);
 
   /// Takes the pose that the robot believes in.
@@ -31,7 +30,7 @@ class DrawnWay {
   PathPoints rest_in_robot(const RobotFinder& finder) const;
 
  private:
-  const Sketch& sketch_;
+  Grid<float> stroke_distance_px_;
   Eigen::Vector2d goal_in_sketch_;
   PlanParams params_;
   Sim2 sketch_from_robot_;

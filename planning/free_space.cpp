@@ -65,16 +65,19 @@ std::span<const std::pair<std::string_view, Objective>> names_of(Objective) {
 
 FreeSpace::FreeSpace(const Sketch& sketch, const ScaleField& scale, const BodyParams& body,
                      Objective objective)
-    : clearance_m_(distance_field_px(sketch.occupied)),
-      m_per_px_(sketch.width_px(), sketch.height_px()) {
+    : FreeSpace(distance_field_px(sketch.occupied), scale, body, objective) {}
+
+FreeSpace::FreeSpace(Grid<float> stroke_distance_px, const ScaleField& scale,
+                     const BodyParams& body, Objective objective)
+    : clearance_m_(std::move(stroke_distance_px)),
+      m_per_px_(scale.m_per_px(width_px(), height_px())) {
   validate(body);
   for (int row = 0; row < height_px(); ++row) {
-    for (int column = 0; column < width_px(); ++column) {
-      const Cell cell{column, row};
-      const auto m_per_px = static_cast<float>(1.0 / scale.px_per_m(centre_of(cell)));
-      m_per_px_.at(cell) = m_per_px;
+    const std::span<float> clearance = clearance_m_.row(row);
+    const std::span<const float> m_per_px = m_per_px_.row(row);
+    for (std::size_t i = 0; i < clearance.size(); ++i) {
       // a stroke's px reaches half a px beyond its centre
-      clearance_m_.at(cell) = std::max(clearance_m_.at(cell) - 0.5F, 0.0F) * m_per_px;
+      clearance[i] = std::max(clearance[i] - 0.5F, 0.0F) * m_per_px[i];
     }
   }
   block(body);

@@ -49,8 +49,10 @@ std::span<const std::pair<std::string_view, Objective>> names_of(Objective);
 /// what lies beyond the drawing is not free.
 class FreeSpace {
  public:
-  /// Distance of strokes from everywhere, computed once for all bodies.
   FreeSpace(const Sketch& sketch, const ScaleField& scale, const BodyParams& body,
+            Objective objective);
+  /// The same of distance_field_px() of the strokes, which is worth keeping for many spaces.
+  FreeSpace(Grid<float> stroke_distance_px, const ScaleField& scale, const BodyParams& body,
             Objective objective);
 
   /// The same with strokes to be crossed where there is no other way: a door drawn shut. Crossing

@@ -8,6 +8,7 @@
 #include "planning/path_improver.hpp"
 #include "planning/random_tree.hpp"
 #include "planning/turning_search.hpp"
+#include "registration/distance_field.hpp"
 
 namespace sketchloc {
 namespace {
@@ -89,7 +90,11 @@ std::string_view name_of(Plan::Source source) {
 }
 
 Planner::Planner(const Sketch& sketch, const ScaleField& scale, const PlanParams& params)
-    : params_((validate(params), params)), space_(sketch, scale, params.body, params.objective) {}
+    : Planner((validate(params), distance_field_px(sketch.occupied)), scale, params) {}
+
+Planner::Planner(Grid<float> stroke_distance_px, const ScaleField& scale, const PlanParams& params)
+    : params_((validate(params), params)),
+      space_(std::move(stroke_distance_px), scale, params.body, params.objective) {}
 
 Plan Planner::plan(const PlanQuery& query, std::uint64_t seed, const PlanWatch& watch) const {
   if (std::optional<Plan> blocked = blocked_end(query)) {

@@ -88,6 +88,8 @@ class Planner {
  public:
   /// Throws std::invalid_argument if a parameter is out of range.
   Planner(const Sketch& sketch, const ScaleField& scale, const PlanParams& params);
+  /// The same of distance_field_px() of the strokes.
+  Planner(Grid<float> stroke_distance_px, const ScaleField& scale, const PlanParams& params);
 
   Plan plan(const PlanQuery& query, std::uint64_t seed, const PlanWatch& watch = {}) const;
 

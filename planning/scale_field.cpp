@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
@@ -17,6 +18,20 @@ double mean_log_scale(std::span<const ScaleSample> samples) {
     sum += std::log(sample.px_per_m);
   }
   return sum / static_cast<double>(samples.size());
+}
+
+/// Between which coarse cells a px lies, and how far from the first to the second.
+struct Between {
+  int first = 0;
+  int second = 0;
+  double share = 0.0;
+};
+
+Between between(int px, int coarse_cells) {
+  const double from_first_centre =
+      std::clamp((px + 0.5) / kCell_px - 0.5, 0.0, static_cast<double>(coarse_cells - 1));
+  const int first = static_cast<int>(from_first_centre);
+  return {first, std::min(first + 1, coarse_cells - 1), from_first_centre - first};
 }
 
 }  // namespace
@@ -51,6 +66,34 @@ ScaleField::ScaleField(int width_px, int height_px, std::span<const ScaleSample>
       log_px_per_m_.at({column, row}) = static_cast<float>(sum / weights);
     }
   }
+}
+
+Grid<float> ScaleField::m_per_px(int width_px, int height_px) const {
+  Grid<float> m_per_px(width_px, height_px, static_cast<float>(1.0 / elsewhere_px_per_m_));
+  if (log_px_per_m_.empty()) {
+    return m_per_px;
+  }
+  std::vector<Between> columns;
+  for (int column = 0; column < width_px; ++column) {
+    columns.push_back(between(column, log_px_per_m_.width()));
+  }
+  std::vector<double> coarse(static_cast<std::size_t>(log_px_per_m_.width()));
+  for (int row = 0; row < height_px; ++row) {
+    const Between rows = between(row, log_px_per_m_.height());
+    for (int column = 0; column < log_px_per_m_.width(); ++column) {
+      coarse[static_cast<std::size_t>(column)] =
+          std::lerp(static_cast<double>(log_px_per_m_.at({column, rows.first})),
+                    static_cast<double>(log_px_per_m_.at({column, rows.second})), rows.share);
+    }
+    const std::span<float> out = m_per_px.row(row);
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      const Between& at = columns[column];
+      const double first = coarse[static_cast<std::size_t>(at.first)];
+      const double second = coarse[static_cast<std::size_t>(at.second)];
+      out[column] = static_cast<float>(std::exp(-(first + at.share * (second - first))));
+    }
+  }
+  return m_per_px;
 }
 
 double ScaleField::px_per_m(const Eigen::Vector2d& place_in_sketch) const {

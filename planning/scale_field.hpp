@@ -41,6 +41,9 @@ class ScaleField {
 
   double px_per_m(const Eigen::Vector2d& place_in_sketch) const;
 
+  /// 1 / px_per_m in the middle of every px of a drawing, several times as quick as one by one.
+  Grid<float> m_per_px(int width_px, int height_px) const;
+
  private:
   double elsewhere_px_per_m_;
   Grid<float> log_px_per_m_;  ///< at coarse cells; empty: the same everywhere

@@ -27,6 +27,21 @@ TEST(ScaleField, GoesOnBeyondTheDrawing) {
   EXPECT_NEAR(field.px_per_m({-500.0, 20.0}), 12.0, 1e-4);
 }
 
+TEST(ScaleField, OfAllPixelsIsWhatItIsOneByOne) {
+  const std::array<ScaleSample, 3> samples = {
+      {{{10.0, 12.0}, 10.0}, {{70.0, 20.0}, 40.0}, {{40.0, 45.0}, 15.0}}};
+  for (const ScaleField& field :
+       {ScaleField(93, 51, samples, {.reach_px = 15.0, .mean_weight = 0.05}), ScaleField(17.0)}) {
+    const Grid<float> all = field.m_per_px(93, 51);
+    for (int row = 0; row < 51; ++row) {
+      for (int column = 0; column < 93; ++column) {
+        const double one = 1.0 / field.px_per_m(centre_of({column, row}));
+        ASSERT_NEAR(static_cast<double>(all.at({column, row})), one, 1e-6 * one);
+      }
+    }
+  }
+}
+
 TEST(ScaleField, RefusesParametersOutOfRange) {
   EXPECT_THROW(validate(ScaleFieldParams{.reach_px = 0.0}), std::invalid_argument);
   EXPECT_THROW(validate(ScaleFieldParams{.mean_weight = 0.0}), std::invalid_argument);
