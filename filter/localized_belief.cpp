@@ -36,26 +36,75 @@ void validate(const LocalizedParams& params) {
   require_in_range("carried_contradiction", params.carried_contradiction, 0.0, 1.0);
   require_in_range("carried_slope", params.carried_slope, 0.0, 1000.0);
   validate_part("contradiction", params.contradiction);
+  require_above("registered.quality_sigma", params.registered.quality_sigma, 0.0);
+  require_above("registered.quality_way_m", params.registered.quality_way_m, 0.0);
+  require_above("registered.right_sigma", params.registered.right_sigma, 0.0);
+  require_above("registered.wrong_sigma", params.registered.wrong_sigma, 0.0);
 }
 
-void LocalizedBelief::save(StateWriter& state) const { state.put(log_odds); }
+void LocalizedBelief::save(StateWriter& state) const {
+  state.put(log_odds);
+  state.put(quality.mean);
+  state.put(quality.variance);
+}
 
-void LocalizedBelief::load(StateReader& state) { log_odds = state.get_finite(); }
+void LocalizedBelief::load(StateReader& state) {
+  log_odds = state.get_finite();
+  quality.mean = state.get_finite();
+  quality.variance = state.get_finite();
+}
 
 void LocalizedBelief::add(const LocalizedSigns& signs, const LocalizedParams& params) {
+  drive(signs.way_m, params);
+  double ratio = 0.0;
+  if (signs.inlier_probability) {
+    const double sign =
+        log_odds_of(*signs.inlier_probability) + params.registered.evidence * signs.evidence;
+    ratio = hear(sign, signs.new_share, params.registered);
+  } else {
+    ratio = signs.new_share * (params.beams.bias + params.beams.evidence * signs.evidence);
+  }
+  const double most = signs.new_share * params.max_ratio;
+  log_odds = std::clamp(log_odds + std::clamp(ratio, -most, most), -kMostLogOdds, kMostLogOdds);
+}
+
+/// Being right and the quality after some way. Where the robot is found, the quality is that of any
+/// drawing: the two Gaussians become one of their mean and variance.
+void LocalizedBelief::drive(double way_m, const LocalizedParams& params) {
   const double right = probability_from(log_odds);
-  const double lost = -std::expm1(-signs.way_m / params.lost_way_m);
-  const double found = -std::expm1(-signs.way_m / params.found_way_m);
-  const double still_right = right * (1.0 - lost) + (1.0 - right) * found;
+  const double lost = -std::expm1(-way_m / params.lost_way_m);
+  const double found = -std::expm1(-way_m / params.found_way_m);
+  const double still_right = right * (1.0 - lost);
+  const double now_right = still_right + (1.0 - right) * found;
   const double now_wrong = right * lost + (1.0 - right) * (1.0 - found);
-  const SignWeights& weights = signs.inlier_probability ? params.registered : params.beams;
-  const double ratio = weights.bias + weights.evidence * signs.evidence +
-                       weights.inlier * log_odds_of(signs.inlier_probability.value_or(0.5));
-  const double before =
-      still_right > 0.0 && now_wrong > 0.0 ? std::log(still_right / now_wrong) : log_odds;
-  log_odds =
-      std::clamp(before + signs.new_share * std::clamp(ratio, -params.max_ratio, params.max_ratio),
-                 -kMostLogOdds, kMostLogOdds);
+  if (now_right > 0.0 && now_wrong > 0.0) {
+    log_odds = std::log(now_right / now_wrong);
+  }
+  const double kept = now_right > 0.0 ? still_right / now_right : 1.0;
+  const double memory = std::exp(-way_m / params.registered.quality_way_m);
+  const double variance =
+      kept * (quality.variance + (1.0 - kept) * quality.mean * quality.mean) + (1.0 - kept);
+  quality.mean *= kept * memory;
+  quality.variance = 1.0 + (variance - 1.0) * memory * memory;
+}
+
+/// The log-likelihood ratio of a sign of which a share is new, so that the likelihoods have that
+/// exponent; a right pose's is integrated over the quality, which learns from it.
+double LocalizedBelief::hear(double sign, double new_share, const RegistrationSigns& signs) {
+  if (new_share <= 0.0) {
+    return 0.0;
+  }
+  const double noise = signs.right_sigma * signs.right_sigma / new_share;
+  const double prior = signs.quality_sigma * signs.quality_sigma * quality.variance;
+  const double innovation = sign - signs.quality_mean - signs.quality_sigma * quality.mean;
+  const double right = -new_share * std::log(signs.right_sigma) - 0.5 * std::log1p(prior / noise) -
+                       0.5 * innovation * innovation / (noise + prior);
+  const double away = (sign - signs.wrong_mean) / signs.wrong_sigma;
+  const double wrong = -new_share * (std::log(signs.wrong_sigma) + 0.5 * away * away);
+  const double gain = prior / (noise + prior);
+  quality.mean += gain * innovation / signs.quality_sigma;
+  quality.variance *= 1.0 - gain;
+  return right - wrong;
 }
 
 void LocalizedBelief::add_contradiction(double contradiction, const LocalizedParams& params) {

@@ -9,19 +9,43 @@
 
 namespace sketchloc {
 
-/// Log-likelihood ratio of what a step showed, if the hypothesis is right against if it is wrong,
-/// linear in the signs: bias + evidence * e + inlier * logit(p), for a scan that is all new.
+/// Log-likelihood ratio of what a step without a registration showed, if the hypothesis is right
+/// against if it is wrong: bias + evidence * e, e the log-likelihood per beam of a scan that is all
+/// new.
 struct SignWeights {
   double bias = 0.0;
-  double evidence = 0.0;  ///< of the log-likelihood per beam
-  double inlier = 0.0;    ///< of the log odds of the registration's inlier probability
+  double evidence = 0.0;
 };
 
 template <typename Visitor>
 void visit_fields(SignWeights& weights, Visitor&& visit) {
   visit("bias", weights.bias);
   visit("evidence", weights.evidence);
-  visit("inlier", weights.inlier);
+}
+
+/// What a registration shows: the sign x = logit(p) + evidence * e, of its inlier probability p and
+/// the log-likelihood per beam e. At a right pose it is Gaussian around the drawing's *quality*
+/// there, which differs from drawing to drawing and from part to part; at a wrong one it is the
+/// same everywhere. A poor sign in a drawing that never gave better ones says little.
+struct RegistrationSigns {
+  double evidence = 0.4;
+  double quality_mean = 3.9;    ///< over drawings
+  double quality_sigma = 0.85;  ///< over drawings, > 0
+  double quality_way_m = 19;    ///< after which the quality is another one, > 0
+  double right_sigma = 2.1;     ///< around the quality, > 0
+  double wrong_mean = -0.6;
+  double wrong_sigma = 4.1;  ///< > 0
+};
+
+template <typename Visitor>
+void visit_fields(RegistrationSigns& signs, Visitor&& visit) {
+  visit("evidence", signs.evidence);
+  visit("quality_mean", signs.quality_mean);
+  visit("quality_sigma", signs.quality_sigma);
+  visit("quality_way_m", signs.quality_way_m);
+  visit("right_sigma", signs.right_sigma);
+  visit("wrong_mean", signs.wrong_mean);
+  visit("wrong_sigma", signs.wrong_sigma);
 }
 
 /// When a pose counts as right, and what tells. The numbers that are not bounds were fitted on
@@ -29,18 +53,18 @@ void visit_fields(SignWeights& weights, Visitor&& visit) {
 struct LocalizedParams {
   double bound_m = 2.0;             ///< right: the position is within this, local metres, > 0
   double bound_rad = 0.5236;        ///< and the heading within this, in (0, pi]
-  double lost_way_m = 108.0;        ///< mean way from being right to being wrong, > 0
+  double lost_way_m = 128.0;        ///< mean way from being right to being wrong, > 0
   double found_way_m = 50.0;        ///< and back, > 0
   double start_log_odds = 4.0;      ///< of a start that was given
   double anywhere_log_odds = -3.5;  ///< of a pose anywhere in the drawing
   double independent_way_m = 2.0;   ///< after which a scan tells nothing that the last told, > 0
-  double max_ratio = 3.6;           ///< the most that one step tells, either way, > 0
+  double max_ratio = 3.4;           ///< the most that one step tells, either way, > 0
   /// Contradiction of two scans at which having been carried is as likely as not.
   double carried_contradiction = 0.1;
   double carried_slope = 100.0;  ///< log odds for a contradiction that is greater by 1, >= 0
   ContradictionParams contradiction{};
   SignWeights beams{.bias = 0.04};  ///< without registrations
-  SignWeights registered{.bias = -0.18, .evidence = 1.0, .inlier = 0.63};
+  RegistrationSigns registered{};
 };
 
 template <typename Visitor>
@@ -71,10 +95,18 @@ struct LocalizedSigns {
   std::optional<double> inlier_probability = std::nullopt;  ///< of a registration from there
 };
 
-/// Whether a hypothesis of the robot's pose is right: a Bayes filter over {right, wrong}, with
-/// changes between both by the way driven (docs/filter.md). Plain data.
+/// The quality of the drawing where the robot is, if the hypothesis is right: Gaussian, in standard
+/// deviations of quality over drawings from their mean. Plain data.
+struct QualityBelief {
+  double mean = 0.0;
+  double variance = 1.0;
+};
+
+/// Whether a hypothesis of the robot's pose is right: a Bayes filter over {right, wrong} and the
+/// drawing's quality, with changes by the way driven (docs/filter.md). Plain data.
 struct LocalizedBelief {
   double log_odds = 0.0;
+  QualityBelief quality{};
 
   void save(StateWriter& state) const;
   void load(StateReader& state);
@@ -83,6 +115,10 @@ struct LocalizedBelief {
 
   /// Two scans in a row contradict each other: the robot may have been carried away.
   void add_contradiction(double contradiction, const LocalizedParams& params);
+
+ private:
+  void drive(double way_m, const LocalizedParams& params);
+  double hear(double sign, double new_share, const RegistrationSigns& signs);
 };
 
 /// The share of the particles' weight within the bounds of the estimate, in [0, 1]; weights are

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "motion/random.hpp"
@@ -22,7 +23,6 @@ LocalizedParams plain_params() {
   params.found_way_m = 1e12;
   params.max_ratio = 10.0;
   params.beams = {.bias = 1.0, .evidence = 2.0};
-  params.registered = {.bias = 0.5, .inlier = 1.0};
   return params;
 }
 
@@ -30,8 +30,78 @@ TEST(LocalizedBelief, AddsTheLogRatiosOfWhatItSees) {
   LocalizedBelief belief{.log_odds = 0.3};
   belief.add({.way_m = 1.0, .new_share = 0.5, .evidence = -0.25}, plain_params());
   EXPECT_NEAR(belief.log_odds, 0.3 + 0.5 * (1.0 - 2.0 * 0.25), 1e-6);
-  belief.add({.new_share = 1.0, .inlier_probability = 0.8}, plain_params());
-  EXPECT_NEAR(belief.log_odds, 0.55 + 0.5 + std::log(4.0), 1e-6);
+}
+
+double density(double x, double mean, double sigma) {
+  const double away = (x - mean) / sigma;
+  return std::exp(-0.5 * away * away) / sigma;
+}
+
+/// What three registrations say with the quality integrated out numerically.
+TEST(LocalizedBelief, WeighsRegistrationsByWhatTheDrawingIsGoodFor) {
+  LocalizedParams params = plain_params();
+  params.registered.quality_way_m = 1e12;
+  params.registered.evidence = 2.0;
+  const RegistrationSigns& signs = params.registered;
+  const std::array<double, 3> inliers = {0.9, 0.3, 0.6};
+  LocalizedBelief belief{.log_odds = 0.3};
+  double wrong = 1.0;
+  for (const double inlier : inliers) {
+    belief.add({.new_share = 1.0, .evidence = -0.25, .inlier_probability = inlier}, params);
+    wrong *= density(std::log(inlier / (1.0 - inlier)) - 0.5, signs.wrong_mean, signs.wrong_sigma);
+  }
+  constexpr double kStep = 1e-3;
+  double right = 0.0;
+  double mean = 0.0;
+  for (double z = -8.0; z <= 8.0; z += kStep) {
+    double likelihood = density(z, 0.0, 1.0) / std::sqrt(2.0 * std::numbers::pi) * kStep;
+    for (const double inlier : inliers) {
+      likelihood *= density(std::log(inlier / (1.0 - inlier)) - 0.5,
+                            signs.quality_mean + signs.quality_sigma * z, signs.right_sigma);
+    }
+    right += likelihood;
+    mean += likelihood * z;
+  }
+  EXPECT_NEAR(belief.log_odds, 0.3 + std::log(right / wrong), 1e-6);
+  EXPECT_NEAR(belief.quality.mean, mean / right, 1e-6);
+}
+
+TEST(LocalizedBelief, HoldsAPoorSignAgainstAGoodDrawingMoreThanAgainstAPoorOne) {
+  const LocalizedParams params = plain_params();
+  const auto after = [&](double usual) {
+    LocalizedBelief belief;
+    for (int i = 0; i < 20; ++i) {
+      belief.add({.way_m = 0.1, .new_share = 0.5, .inlier_probability = usual}, params);
+    }
+    const double before = belief.log_odds;
+    belief.add({.way_m = 0.1, .new_share = 0.5, .inlier_probability = 0.5}, params);
+    return belief.log_odds - before;
+  };
+  EXPECT_LT(after(0.99), after(0.8));
+  EXPECT_LT(after(0.99), 0.0);
+}
+
+TEST(LocalizedBelief, ForgetsTheQualityWithTheWay) {
+  const LocalizedParams params = plain_params();
+  LocalizedBelief belief{.log_odds = 30.0};
+  belief.add({.inlier_probability = 0.1}, params);
+  EXPECT_LT(belief.quality.mean, -0.3);
+  EXPECT_LT(belief.quality.variance, 1.0);
+  belief.add({.way_m = 1000.0}, params);
+  EXPECT_NEAR(belief.quality.mean, 0.0, 1e-6);
+  EXPECT_NEAR(belief.quality.variance, 1.0, 1e-6);
+}
+
+/// A pose that was found lies in a part of the drawing that nothing is known of.
+TEST(LocalizedBelief, KnowsNoQualityOfWhereItWasFound) {
+  LocalizedParams params = plain_params();
+  params.registered.quality_way_m = 1e12;
+  params.found_way_m = 1.0;
+  LocalizedBelief belief{.log_odds = -15.0, .quality = {.mean = -2.0, .variance = 0.1}};
+  belief.add({.way_m = 5.0}, params);
+  EXPECT_GT(belief.log_odds, 3.0);
+  EXPECT_NEAR(belief.quality.mean, 0.0, 1e-4);
+  EXPECT_NEAR(belief.quality.variance, 1.0, 1e-4);
 }
 
 TEST(LocalizedBelief, HearsNoMoreFromOneStepThanItMay) {
@@ -120,6 +190,8 @@ TEST(LocalizedParams, RefuseWhatIsOutOfRange) {
   EXPECT_THROW(validate(LocalizedParams{.bound_m = 0.0}), std::invalid_argument);
   EXPECT_THROW(validate(LocalizedParams{.lost_way_m = 0.0}), std::invalid_argument);
   EXPECT_THROW(validate(LocalizedParams{.carried_contradiction = 2.0}), std::invalid_argument);
+  EXPECT_THROW(validate(LocalizedParams{.registered = {.right_sigma = 0.0}}),
+               std::invalid_argument);
 }
 
 }  // namespace

@@ -206,6 +206,7 @@ TEST(Localizer, LetsAPoseThatWasGivenBeContestedOnlyWhereItIsLost) {
     params.beams.exponent = 1e-6;  // the particles alone never come back
     params.localized.start_log_odds = start_log_odds;
     params.challengers.lost_log_odds = lost_log_odds;
+    params.challengers.calm_priors_per_m = params.challengers.lost_priors_per_m;
     KnowsItNearby predictor(drive);
     Localizer localizer(sketch, params, &predictor);
     localizer.start_at(Sim2::from_xy_yaw_scale(220.0, 120.0, -2.0, kPxPerM));
