@@ -109,6 +109,18 @@ void require_done(Localization::Status status, const LocalizeOptions& options) {
   }
 }
 
+/// The smoothed poses at the keyframes.
+std::vector<SmoothedPose> smoothed_poses(const RunRecord& record) {
+  std::vector<SmoothedPose> poses;
+  for (const Keyframe& keyframe : record.keyframes.keyframes) {
+    const StepReport& report = record.steps.at(keyframe.step);
+    poses.push_back({.sketch_from_robot = report.estimate.sketch_from_robot,
+                     .covariance = Eigen::Matrix4d::Zero(),
+                     .probability = report.localized_probability});
+  }
+  return poses;
+}
+
 /// Fills the record with what the method found and what it took.
 void localize_into(RunRecord& record, const LocalizeOptions& options,
                    const LocalizationMethod& method, const LocalizationParams& params) {
@@ -137,6 +149,10 @@ void localize_into(RunRecord& record, const LocalizeOptions& options,
   record.snapshots = std::move(found.snapshots);
   record.filtered = std::move(found.filtered);
   record.keyframes = std::move(found.keyframes);
+  if (task.smoothing == Smoothing::Whole && !record.filtered.empty()) {
+    record.spline =
+        fit_drawing_spline(record.keyframes, smoothed_poses(record), of_method.smoothing.spline);
+  }
   if (task.smoothing == Smoothing::Whole && record.filtered.empty()) {
     spdlog::warn("{}: nothing could be registered, so that the run is not smoothed",
                  options.log.string());

@@ -10,6 +10,8 @@
 
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/trajectory_io.hpp"
+#include "eval/drawing_overlay.hpp"
+#include "eval/drawing_spline_io.hpp"
 #include "eval/keyframe_io.hpp"
 #include "eval/picture.hpp"
 #include "eval/report.hpp"
@@ -79,10 +81,16 @@ void write_result_files(const OutputFolder& out, const RunRecord& record,
   if (!record.keyframes.keyframes.empty()) {
     write_atomically(out / "keyframes.jsonl", to_jsonl(record.keyframes));
   }
+  if (record.spline) {
+    write_atomically(out / "spline.json", to_json(*record.spline, record.keyframes));
+  }
   write_atomically(out / "metrics.json", to_json(measure_run(record)));
   write_atomically(out / "run.yaml", run_file_text(description));
   write_for_people(out, "report.html", [&] { return report_html(record); });
   write_for_people(out, "picture.png", [&] { return picture_png(record); });
+  if (record.spline) {
+    write_for_people(out, "overlay.png", [&] { return overlay_png(record); });
+  }
 }
 
 std::string summary_text(const RunRecord& record) {

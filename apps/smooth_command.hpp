@@ -7,6 +7,7 @@
 #include "apps/parameter_options.hpp"
 #include "motion/graph/incremental.hpp"
 #include "motion/graph/optimise.hpp"
+#include "smoothing/drawing_spline.hpp"
 #include "smoothing/smoothing_params.hpp"
 
 namespace CLI {
@@ -25,6 +26,7 @@ struct SmoothParams {
   OptimiseParams optimise;
   IncrementalParams incremental;  ///< with --incremental
   SmoothingParams smoothing;      ///< of a run
+  DrawingSplineParams spline;     ///< of the whole drawing, from a run
 };
 
 template <typename Visitor>
@@ -32,6 +34,7 @@ void visit_fields(SmoothParams& params, Visitor&& visit) {
   visit("optimise", params.optimise);
   visit("incremental", params.incremental);
   visit("smoothing", params.smoothing);
+  visit("spline", params.spline);
 }
 
 /// What `sketchloc smooth` is told.

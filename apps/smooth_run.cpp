@@ -13,6 +13,7 @@
 #include "apps/run_file.hpp"
 #include "datasets/io/atomic_file.hpp"
 #include "datasets/io/trajectory_io.hpp"
+#include "eval/drawing_spline_io.hpp"
 #include "eval/keyframe_io.hpp"
 #include "eval/smoothed_localization.hpp"
 #include "eval/step_table.hpp"
@@ -49,6 +50,9 @@ void smooth_run(const SmoothOptions& options, const SmoothParams& params) {
   const std::vector<StepReport> reports = reports_of(run, smoothed);
   write_tum(out / "trajectory.tum", trajectory_of(reports));
   write_atomically(out / "trajectory.csv", step_table_csv(reports));
+  if (const auto spline = fit_drawing_spline(run, smoothed.poses, params.spline)) {
+    write_atomically(out / "spline.json", to_json(*spline, run));
+  }
   write_atomically(out / "run.yaml", run_file_text({.command = "smooth",
                                                     .seed = std::nullopt,
                                                     .inputs = {{"run", options.run.string()}},

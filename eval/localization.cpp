@@ -87,6 +87,7 @@ Localization filter_and_smooth(const Sketch& sketch, const Run& run, const Local
 
 void validate(const SmoothingPlan& plan) {
   validate_part("keyframes", plan.keyframes);
+  validate_part("spline", plan.spline);
   validate_part("smoothing", plan.smoothing);
   validate_part("place_pairs", plan.place_pairs);
   validate_part("lag", plan.lag);

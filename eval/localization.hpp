@@ -14,6 +14,7 @@
 #include "registration/matched_odometry.hpp"
 #include "registration/network_predictor.hpp"
 #include "registration/odometry_feed.hpp"
+#include "smoothing/drawing_spline.hpp"
 #include "smoothing/keyframes.hpp"
 #include "smoothing/lag_smoother.hpp"
 #include "smoothing/smooth.hpp"
@@ -42,6 +43,7 @@ struct SmoothingPlan {
   bool places = false;  ///< keyframes of one place, told by the building's topology, are tied
   PlacePairParams place_pairs;
   LagParams lag;
+  DrawingSplineParams spline;
 };
 
 template <typename Visitor>
@@ -52,6 +54,7 @@ void visit_fields(SmoothingPlan& plan, Visitor&& visit) {
   visit("places", plan.places);
   visit("place_pairs", plan.place_pairs);
   visit("lag", plan.lag);
+  visit("spline", plan.spline);
 }
 
 /// Throws std::invalid_argument naming the component and field, its range and its value.

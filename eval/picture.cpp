@@ -5,9 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "datasets/io/image_rows.hpp"
 #include "eval/detail/canvas.hpp"
-#include "eval/detail/raster.hpp"
 #include "eval/detail/run_picture.hpp"
 #include "eval/detail/verdict.hpp"
 
@@ -26,13 +24,6 @@ constexpr double kLongest_px = 1600.0;
 constexpr double kMostZoom = 6.0;
 constexpr double kTextSize = 0.65;
 constexpr double kWidthFactor = 1.6;  ///< of lines, from screen pixels to this picture's
-
-cv::Mat3b paper_image(const Sketch& sketch, const Frame& frame) {
-  cv::Mat3b image;
-  cv::cvtColor(image_from_grid(detail::zoomed(detail::paper(sketch), frame.view, frame.zoom)),
-               image, cv::COLOR_GRAY2BGR);
-  return image;
-}
 
 void draw_ends(cv::Mat3b& image, const RunRecord& record, const Frame& frame) {
   constexpr int kRadius_px = 9;
@@ -91,7 +82,7 @@ std::string picture_png(const RunRecord& record) {
   const std::vector<PathLayer> layers = detail::path_layers(record, step_errors(record));
   Frame frame{.view = detail::whole_view(record, layers)};
   frame.zoom = std::min(kMostZoom, kLongest_px / std::max(frame.view.width(), frame.view.height()));
-  cv::Mat3b image = paper_image(record.sketch, frame);
+  cv::Mat3b image = detail::paper_image(record.sketch, frame);
   for (const PathLayer& layer : layers) {
     draw_layer(image, layer, frame, kWidthFactor);
   }

@@ -9,6 +9,7 @@ std::string report_html(const RunRecord& record) {
   return detail::page_html(record, detail::drawing_definition(model) +      //
                                        detail::verdict_html(model) +        //
                                        detail::first_picture_html(model) +  //
+                                       detail::overlay_html(model) +        //
                                        detail::scans_html(model) +          //
                                        detail::particles_html(model) +      //
                                        detail::charts_html(model) +         //

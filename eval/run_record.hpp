@@ -12,6 +12,7 @@
 #include "eval/run_metrics.hpp"
 #include "eval/sketch_errors.hpp"
 #include "filter/step_report.hpp"
+#include "smoothing/drawing_spline.hpp"
 #include "smoothing/keyframe.hpp"
 
 namespace sketchloc {
@@ -45,11 +46,12 @@ struct RunRecord {
   std::string parameters;  ///< as YAML, shown as it is
 
   Sketch sketch;
-  Run run;                                  ///< may be empty: then no scans are shown
-  std::vector<StepReport> steps;            ///< in the order of the run
-  std::vector<StepReport> filtered = {};    ///< of a run that was smoothed: the filter's own steps
-  KeyframeRun keyframes = {};               ///< what it was smoothed by
-  std::vector<ParticleSnapshot> snapshots;  ///< steps increasing; may be empty
+  Run run;                                   ///< may be empty: then no scans are shown
+  std::vector<StepReport> steps;             ///< in the order of the run
+  std::vector<StepReport> filtered = {};     ///< of a run that was smoothed: the filter's own steps
+  KeyframeRun keyframes = {};                ///< what it was smoothed by
+  std::optional<DrawingSpline> spline = {};  ///< of the whole drawing, where one was found
+  std::vector<ParticleSnapshot> snapshots;   ///< steps increasing; may be empty
 
   std::optional<Reference> reference;
   std::vector<Reference> alternatives;  ///< other readings of the drawing, accepted too

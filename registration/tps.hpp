@@ -26,6 +26,7 @@ class ThinPlateSpline {
 
  private:
   friend class TpsSolver;
+  friend class SplineBasis;
   std::vector<Eigen::Vector2d> control_points_;
   Eigen::Matrix<double, Eigen::Dynamic, 2> weights_;  ///< w, one row per control point
   Eigen::Matrix<double, 3, 2> affine_;                ///< a: rows 1, x, y

@@ -6,6 +6,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "datasets/io/image_rows.hpp"
+#include "eval/detail/raster.hpp"
 #include "motion/check.hpp"
 
 namespace sketchloc::detail {
@@ -84,6 +86,13 @@ std::string ascii(const std::string& text) {
 }
 
 }  // namespace
+
+cv::Mat3b paper_image(const Sketch& sketch, const Frame& frame) {
+  cv::Mat3b image;
+  cv::cvtColor(image_from_grid(zoomed(paper(sketch), frame.view, frame.zoom)), image,
+               cv::COLOR_GRAY2BGR);
+  return image;
+}
 
 cv::Scalar bgr(const Colour& colour) {
   return {static_cast<double>(colour.blue), static_cast<double>(colour.green),

@@ -25,6 +25,9 @@ struct Frame {
   }
 };
 
+/// The drawing as it lies under what is drawn.
+cv::Mat3b paper_image(const Sketch& sketch, const Frame& frame);
+
 /// OpenCV draws at positions with so many fractional bits.
 constexpr int kShift = 4;
 cv::Point sub_pixel(const cv::Point2d& point);

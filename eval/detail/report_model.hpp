@@ -32,6 +32,7 @@ ReportModel make_report_model(const RunRecord& record);
 // The parts of the page, each as HTML.
 std::string verdict_html(const ReportModel& model);
 std::string first_picture_html(const ReportModel& model);
+std::string overlay_html(const ReportModel& model);
 std::string scans_html(const ReportModel& model);
 std::string particles_html(const ReportModel& model);
 std::string charts_html(const ReportModel& model);

@@ -6,6 +6,7 @@
 #include "eval/detail/report_model.hpp"
 #include "eval/detail/scan_marks.hpp"
 #include "eval/detail/text.hpp"
+#include "eval/drawing_overlay.hpp"
 #include "motion/angles.hpp"
 
 namespace sketchloc::detail {
@@ -258,6 +259,18 @@ std::string first_picture_html(const ReportModel& model) {
   return "<section><h2>Where the robot was</h2><div class=\"paper picture\">" + svg + "</svg>" +
          end_labels(model) + moment_labels(model) + "</div>" +
          legend_html(model.layers, model.has_reference()) + "</section>";
+}
+
+std::string overlay_html(const ReportModel& model) {
+  if (!model.record.spline) {
+    return {};
+  }
+  return "<section><h2>The drawing in metres</h2><p>One smooth map from metres to the whole "
+         "drawing, found together with the path: where the walls that the scans saw (green) fall "
+         "onto the strokes, the drawing is understood. Grey: this run does not tell.</p>"
+         "<img style=\"width:100%\" alt=\"the drawing with a metric grid, and unbent into metres "
+         "with the scans over it\" src=\"data:image/png;base64," +
+         base64(overlay_png(model.record)) + "\"/></section>";
 }
 
 std::string scans_html(const ReportModel& model) {

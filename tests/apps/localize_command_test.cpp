@@ -128,6 +128,14 @@ TEST_F(LocalizeCommandEndToEnd, SmoothsARunAndSmoothsItAgainFromItsFolder) {
     EXPECT_NEAR(keyframe.estimate.sketch_from_robot.x(), same.x(), 1e-3);
     EXPECT_NEAR(keyframe.estimate.sketch_from_robot.y(), same.y(), 1e-3);
   }
+  EXPECT_TRUE(fs::exists(out / "overlay.png"));
+  for (const fs::path& folder : {out, anew}) {
+    std::ifstream file(folder / "spline.json");
+    const nlohmann::json spline = nlohmann::json::parse(file);
+    EXPECT_EQ(spline.at("poses").size(), read_step_table(anew / "trajectory.csv").size());
+    EXPECT_GE(spline.at("controls").size(), 9U);
+    EXPECT_LT(spline.at("residual_m").get<double>(), 2.0);
+  }
 }
 
 TEST_F(LocalizeCommandEndToEnd, GivesPosesAsTheyAreKnownALagLater) {
@@ -146,6 +154,7 @@ TEST_F(LocalizeCommandEndToEnd, GivesPosesAsTheyAreKnownALagLater) {
   };
   EXPECT_GT(moved_px(lagged.size() / 2), 0.0);
   EXPECT_FALSE(fs::exists(out / "keyframes.jsonl"));
+  EXPECT_FALSE(fs::exists(out / "spline.json"));
 }
 
 TEST_F(LocalizeCommandEndToEnd, SaysWhatSmoothingNeeds) {
