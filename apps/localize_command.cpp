@@ -149,11 +149,13 @@ void localize_into(RunRecord& record, const LocalizeOptions& options,
   record.snapshots = std::move(found.snapshots);
   record.filtered = std::move(found.filtered);
   record.keyframes = std::move(found.keyframes);
-  if (task.smoothing == Smoothing::Whole && !record.filtered.empty()) {
+  if (task.smoothing != Smoothing::Whole) {
+    return;
+  }
+  if (!record.filtered.empty()) {
     record.spline =
         fit_drawing_spline(record.keyframes, smoothed_poses(record), of_method.smoothing.spline);
-  }
-  if (task.smoothing == Smoothing::Whole && record.filtered.empty()) {
+  } else {
     spdlog::warn("{}: nothing could be registered, so that the run is not smoothed",
                  options.log.string());
   }

@@ -11,6 +11,7 @@
 #include "eval/detail/text.hpp"
 #include "motion/check.hpp"
 #include "registration/plane_map.hpp"
+#include "registration/polar.hpp"
 
 namespace sketchloc {
 namespace {
@@ -89,8 +90,7 @@ DrawingSpline turned_as_drawn(const DrawingSpline& spline) {
   for (const Se2& pose : spline.metric_from_robot) {
     sum += spline.sketch_from_metric.jacobian(pose.translation());
   }
-  const Se2 turn =
-      Se2::from_xy_yaw(0.0, 0.0, std::atan2(sum(1, 0) - sum(0, 1), sum(0, 0) + sum(1, 1)));
+  const Se2 turn = Se2::from_xy_yaw(0.0, 0.0, polar_yaw_rad(sum));
   std::vector<Eigen::Vector2d> controls;
   std::vector<Eigen::Vector2d> places;
   for (const Eigen::Vector2d& control : spline.basis.control_points()) {

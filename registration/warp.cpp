@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "registration/polar.hpp"
+
 namespace sketchloc {
 namespace {
 
@@ -16,11 +18,6 @@ std::optional<ThinPlateSpline> spline_through(std::span<const Eigen::Vector2d> p
   const std::optional<TpsSolver> solver =
       TpsSolver::factor(std::vector<Eigen::Vector2d>(points.begin(), points.end()));
   return solver ? std::optional(solver->solve(values)) : std::nullopt;
-}
-
-/// The rotation nearest to a matrix of positive determinant.
-double polar_rotation_rad(const Eigen::Matrix2d& matrix) {
-  return std::atan2(matrix(1, 0) - matrix(0, 1), matrix(0, 0) + matrix(1, 1));
 }
 
 }  // namespace
@@ -73,7 +70,7 @@ std::optional<Sim2> Warp::pose() const {
     return std::nullopt;
   }
   return Sim2::from_xy_yaw_scale(origin->value.x(), origin->value.y(),
-                                 polar_rotation_rad(origin->jacobian),
+                                 polar_yaw_rad(origin->jacobian),
                                  std::sqrt(origin->jacobian.determinant()));
 }
 

@@ -9,6 +9,7 @@
 
 #include "motion/check.hpp"
 #include "motion/validate.hpp"
+#include "registration/polar.hpp"
 #include "smoothing/detail/spline_problem.hpp"
 
 namespace sketchloc {
@@ -267,8 +268,7 @@ std::optional<Sim2> DrawingSpline::sketch_from_robot(std::size_t keyframe) const
   if (!(determinant > 0.0)) {
     return std::nullopt;
   }
-  const Eigen::Matrix2d& j = map.jacobian;
-  const double yaw = std::atan2(j(1, 0) - j(0, 1), j(0, 0) + j(1, 1)) + pose.yaw_rad();
+  const double yaw = polar_yaw_rad(map.jacobian) + pose.yaw_rad();
   return Sim2::from_xy_yaw_scale(map.value.x(), map.value.y(), yaw, std::sqrt(determinant));
 }
 

@@ -10,6 +10,7 @@
 
 #include "motion/angles.hpp"
 #include "motion/graph/kernel.hpp"
+#include "registration/polar.hpp"
 
 namespace sketchloc::detail {
 namespace {
@@ -39,11 +40,7 @@ LocalMap local_map(const SplineBasis& basis, const Values& values, const Eigen::
   return map;
 }
 
-double polar_yaw(const Eigen::Matrix2d& j) {
-  return std::atan2(j(1, 0) - j(0, 1), j(0, 0) + j(1, 1));
-}
-
-/// Derivatives of polar_yaw() by the entries of the Jacobian.
+/// Derivatives of polar_yaw_rad() by the entries of the Jacobian.
 Eigen::Matrix2d yaw_gradient(const Eigen::Matrix2d& j) {
   const double s = j(1, 0) - j(0, 1);
   const double c = j(0, 0) + j(1, 1);
@@ -57,7 +54,7 @@ Eigen::Vector4d error_at(const Sight& sight, const LocalMap& map, double heading
       sight.sketch_from_robot.inverse().scaled_rotation_matrix();
   Eigen::Vector4d error;
   error << robot_from_sketch * (map.place - sight.sketch_from_robot.translation()),
-      wrap_rad(polar_yaw(map.jacobian) + heading_rad - sight.sketch_from_robot.yaw_rad()),
+      wrap_rad(polar_yaw_rad(map.jacobian) + heading_rad - sight.sketch_from_robot.yaw_rad()),
       0.5 * std::log(map.jacobian.determinant()) - std::log(sight.sketch_from_robot.scale());
   return error;
 }
