@@ -3,11 +3,19 @@
 #include <spdlog/fmt/fmt.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "apps/interrupt.hpp"
+#include "registration/shipped_networks.hpp"
 #include "registration/train/place_trainer.hpp"
+#include "registration/verified_predictor.hpp"
 
 namespace sketchloc {
 namespace {
@@ -29,6 +37,7 @@ class PlaceLearning final : public LearningTask {
     int cells = 1;
     int batch = 1;
     std::vector<Answer> answers;
+    std::optional<FoldedNetwork> from = std::nullopt;
   };
 
   PlaceLearning(Kind kind, BatchMaker make_batch, const LearningPlan& plan)
@@ -38,7 +47,8 @@ class PlaceLearning final : public LearningTask {
         trainer_({.task = kind_.task,
                   .cells = kind_.cells,
                   .seed = plan.seed,
-                  .total_batches = batches_of(plan.samples, kind_.batch)},
+                  .total_batches = batches_of(plan.samples, kind_.batch),
+                  .from = kind_.from},
                  plan.trainer) {}
 
   int samples_per_batch() const override { return kind_.batch; }
@@ -100,6 +110,61 @@ std::uint64_t seed_of(SampleSplit split, const LearningPlan& plan) {
   return split == SampleSplit::Training ? plan.seed : 0;  // the validation is the same for all
 }
 
+/// Registrations of both splits, and whether the robot was there. Each split's are asked for one
+/// after the other.
+class RegisteredBatches {
+ public:
+  RegisteredBatches(const SampleSourceParams& params, const LearningPlan& plan, std::string network)
+      : params_(params), plan_(plan), network_(std::move(network)) {}
+
+  PlaceBatch batch(SampleSplit split, std::uint64_t number) {
+    std::unique_ptr<SampleSource>& source = sources_[split];
+    if (!source) {
+      source = source_from(split, number);
+    }
+    const SampleBatch registered = source->next();
+    PlaceBatch batch{.count = registered.count, .input = registered.input};
+    for (std::size_t i = 0; i < registered.sketch_from_robot.size(); ++i) {
+      const Sim2& truth = registered.sketch_from_robot[i];
+      const Sim2 truth_from_found = truth.inverse() * registered.prior_sketch_from_robot[i];
+      const bool right = truth_from_found.translation().norm() < kVerified_m &&
+                         std::abs(truth_from_found.yaw_rad()) < kVerified_rad;
+      batch.answer.push_back(right ? 1 : 0);
+    }
+    return batch;
+  }
+
+ private:
+  std::unique_ptr<SampleSource> source_from(SampleSplit split, std::uint64_t number) const {
+    SampleSourceParams params = params_;
+    if (split == SampleSplit::Validation) {
+      params.samples_per_scene = std::max(1, params.batch / params.scenes);  // many buildings
+    }
+    const SampleSource::Stream stream{.kind = InputKind::Residual,
+                                      .split = split,
+                                      .seed = seed_of(split, plan_),
+                                      .first_batch = number,
+                                      .improving_network = network_,
+                                      .registered = true};
+    return std::make_unique<SampleSource>(params, stream, plan_.workers);
+  }
+
+  SampleSourceParams params_;
+  LearningPlan plan_;
+  std::string network_;
+  std::map<SampleSplit, std::unique_ptr<SampleSource>> sources_;
+};
+
+std::string network_of_ours() {
+  const std::span<const std::uint8_t> shipped = shipped_network(NetworkKind::Ours);
+  if (shipped.empty()) {
+    throw std::invalid_argument(
+        "verify learns from what ours registers, and no network of ours "
+        "comes with this program");
+  }
+  return {reinterpret_cast<const char*>(shipped.data()), shipped.size()};
+}
+
 }  // namespace
 
 std::unique_ptr<LearningTask> make_label_task(const PlaceSampleParams& samples,
@@ -139,6 +204,22 @@ std::unique_ptr<LearningTask> make_same_place_task(const NodePairParams& pairs,
                           .batch = pairs.batch,
                           .answers = {{1, "same_recall_percent", "same_precision_percent"}}},
       make, plan);
+}
+
+std::unique_ptr<LearningTask> make_verification_task(const SampleSourceParams& source,
+                                                     const LearningPlan& plan) {
+  const std::string network = network_of_ours();
+  const int cells = source.sample.cells;
+  const auto batches = std::make_shared<RegisteredBatches>(source, plan, network);
+  return std::make_unique<PlaceLearning>(
+      PlaceLearning::Kind{.task = PlaceTask::Verification,
+                          .cells = cells,
+                          .batch = source.batch,
+                          .answers = {{1, "right_recall_percent", "right_precision_percent"}},
+                          .from = verification_of(
+                              network_of_onnx(plan_network(NetworkKind::Ours, cells), network))},
+      [batches](SampleSplit split, std::uint64_t number) { return batches->batch(split, number); },
+      plan);
 }
 
 }  // namespace sketchloc

@@ -13,7 +13,7 @@ namespace sketchloc {
 namespace {
 
 constexpr std::string_view kMagic = "sketchloc state\n";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 constexpr std::size_t kMostBytes = std::size_t{1} << 30;
 
 [[noreturn]] void fail(const std::filesystem::path& file, const std::string& what) {

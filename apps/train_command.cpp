@@ -29,9 +29,10 @@ const std::map<std::string, NetworkKind> kRegistrationKinds = {
 
 constexpr const char* kPlaces = "places";
 constexpr const char* kSamePlace = "same-place";
+constexpr const char* kVerify = "verify";
 
 struct TrainParams {
-  SampleSourceParams source;  ///< of the networks that register
+  SampleSourceParams source;  ///< of the networks that register and verify
   PlaceSampleParams places;   ///< of the network that tells kinds of places
   NodePairParams same_place;  ///< of the one that compares places
   TrainerParams trainer;
@@ -98,6 +99,9 @@ std::unique_ptr<LearningTask> task_of(const TrainOptions& options, const TrainPa
     return make_same_place_task(params.same_place, plan);
   }
   require_halvings("source.sample.cells", params.source.sample.cells, 32);
+  if (options.network == kVerify) {
+    return make_verification_task(params.source, plan);
+  }
   try {
     return make_registration_task({.kind = kRegistrationKinds.at(options.network),
                                    .source = params.source,
@@ -127,7 +131,7 @@ TrainingSittingPlan sitting_plan(const TrainOptions& options, const TrainParams&
 }
 
 std::vector<std::string> network_names() {
-  std::vector<std::string> names = {kPlaces, kSamePlace};
+  std::vector<std::string> names = {kPlaces, kSamePlace, kVerify};
   for (const auto& [name, kind] : kRegistrationKinds) {
     names.push_back(name);
   }
@@ -144,8 +148,8 @@ void add_algorithm_options(CLI::App& command, TrainOptions& options) {
         ->transform(CLI::AsNumberWithUnit(units, CLI::AsNumberWithUnit::CASE_SENSITIVE, "N[k|M]"));
   };
   option("--network", options.network,
-         "chen20, affine or ours: register scans; places: tells kinds of places; same-place: "
-         "compares places")
+         "chen20, affine or ours: register scans; verify: tells whether the robot is where ours "
+         "registered it; places: tells kinds of places; same-place: compares places")
       ->check(CLI::IsMember(network_names()));
   command
       .add_option("--from", options.from,

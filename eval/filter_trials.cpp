@@ -37,7 +37,8 @@ Json json_of(const std::optional<LocalizedSigns>& signs) {
     return nullptr;
   }
   return {signs->way_m, signs->new_share, signs->evidence,
-          signs->inlier_probability ? Json(*signs->inlier_probability) : Json()};
+          signs->inlier_probability ? Json(*signs->inlier_probability) : Json(),
+          signs->place_log_odds};
 }
 
 std::optional<LocalizedSigns> signs_of(const Json& json) {
@@ -49,7 +50,8 @@ std::optional<LocalizedSigns> signs_of(const Json& json) {
       .way_m = json.at(0).get<double>(),
       .new_share = json.at(1).get<double>(),
       .evidence = json.at(2).get<double>(),
-      .inlier_probability = inlier.is_null() ? std::nullopt : std::optional(inlier.get<double>())};
+      .inlier_probability = inlier.is_null() ? std::nullopt : std::optional(inlier.get<double>()),
+      .place_log_odds = json.at(4).get<double>()};
 }
 
 /// Errors in a drawing in which no pose is right.

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "motion/check.hpp"
 #include "registration/icp_predictor.hpp"
 #include "registration/shipped_networks.hpp"
+#include "registration/verified_predictor.hpp"
 
 namespace sketchloc {
 namespace {
@@ -68,7 +70,12 @@ std::unique_ptr<WarpPredictor> make_predictor(RegistrationMethod method,
     throw std::invalid_argument("no network for " + name_of(method) +
                                 " comes with this program; give one that sketchloc train made");
   }
-  return make_network_predictor(network, *kind, params);
+  std::unique_ptr<WarpPredictor> predictor = make_network_predictor(network, *kind, params);
+  const bool verifies =
+      kind == NetworkKind::Ours && params.verify && !shipped_verification().empty();
+  return verifies
+             ? make_verified_predictor(std::move(predictor), shipped_verification(), params.window)
+             : std::move(predictor);
 }
 
 }  // namespace sketchloc

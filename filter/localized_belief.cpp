@@ -12,6 +12,7 @@ namespace sketchloc {
 namespace {
 
 constexpr double kLeastProbability = 1e-3;  ///< of an inlier: no registration is surer than this
+constexpr double kMostPlaceLogOdds = 7.0;   ///< nor a verification
 
 constexpr double kMostLogOdds = 20.0;  ///< of anything
 
@@ -42,6 +43,12 @@ void validate(const LocalizedParams& params) {
   require_above("registered.wrong_sigma", params.registered.wrong_sigma, 0.0);
 }
 
+void show(LocalizedSigns& signs, const Registration* registration) {
+  signs.inlier_probability = registration != nullptr ? registration->inlier_probability : 0.0;
+  signs.place_log_odds =
+      registration != nullptr ? registration->place_log_odds.value_or(0.0) : -kMostPlaceLogOdds;
+}
+
 void LocalizedBelief::save(StateWriter& state) const {
   state.put(log_odds);
   state.put(quality.mean);
@@ -58,8 +65,8 @@ void LocalizedBelief::add(const LocalizedSigns& signs, const LocalizedParams& pa
   drive(signs.way_m, params);
   double ratio = 0.0;
   if (signs.inlier_probability) {
-    const double sign =
-        log_odds_of(*signs.inlier_probability) + params.registered.evidence * signs.evidence;
+    const double place = std::clamp(signs.place_log_odds, -kMostPlaceLogOdds, kMostPlaceLogOdds);
+    const double sign = log_odds_of(*signs.inlier_probability) + params.registered.place * place;
     ratio = hear(sign, signs.new_share, params.registered);
   } else {
     ratio = signs.new_share * (params.beams.bias + params.beams.evidence * signs.evidence);

@@ -52,7 +52,6 @@ Localizer::Localizer(const Sketch& sketch, const LocalizerParams& params, WarpPr
   }
   scores_.resize(most);
   chosen_.reserve(most);
-  single_.resize(1);
   if (predictor != nullptr && (params.fusion.propose || params.fusion.measure)) {
     registrar_.emplace(sketch, *predictor, params.fusion);
   }
@@ -228,7 +227,6 @@ void Localizer::weigh(std::size_t beams) {
   }
   const double per_beam = score_sum / weight_sum / static_cast<double>(beams);
   update_share_ = new_share();
-  update_beams_ = beams;
   evidence_.add(per_beam, way_since_update_m_ + kWayPerTurnM * turn_since_update_rad_);
   report_.log_likelihood = per_beam;
   way_since_update_m_ = 0.0;

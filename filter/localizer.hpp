@@ -91,7 +91,6 @@ class Localizer {
   void hear_registrations();
   void challenge(const Se2& robot_from_next, const StepBudget& budget);
   void ask(std::vector<Challenger> asked);
-  double evidence_at(const Registration& registration);
   void take_over();
 
   LocalizerParams params_;
@@ -109,7 +108,6 @@ class Localizer {
   ParticleSet particles_;
   ParticleSet candidates_;             ///< for recovery
   std::vector<std::uint32_t> chosen_;  ///< of the candidates
-  ParticleSet single_;                 ///< one pose to be scored
   std::vector<float> scores_;
   std::vector<std::int8_t> likelihood_of_;
 
@@ -120,7 +118,6 @@ class Localizer {
   double turn_since_update_rad_ = 0.0;
   bool updated_once_ = false;
   double update_share_ = 1.0;  ///< how much of the last update's scan was new
-  std::size_t update_beams_ = 0;
   double way_since_signs_m_ = 0.0;
   Scan last_scan_;  ///< that saw anything, and where it was since
   std::optional<Se2> last_scan_from_robot_;

@@ -100,23 +100,10 @@ void Localizer::hear_registrations() {
   report_.signs = {
       .way_m = way_since_signs_m_,
       .new_share = std::min(1.0, way_since_signs_m_ / params_.localized.independent_way_m),
-      .evidence = nearest != nullptr ? evidence_at(*nearest) : report_.log_likelihood,
-      .inlier_probability = nearest != nullptr ? nearest->inlier_probability : 0.0};
+      .evidence = report_.log_likelihood};
+  show(*report_.signs, nearest);
   belief_.add(*report_.signs, params_.localized);
   way_since_signs_m_ = 0.0;
-}
-
-/// The log-likelihood per beam of the present scan at a registration's pose.
-double Localizer::evidence_at(const Registration& registration) {
-  const PoseLikelihood likelihood = pose_likelihood(registration, params_.fusion.trust, 1.0);
-  single_.x_px[0] = static_cast<float>(likelihood.mean[0]);
-  single_.y_px[0] = static_cast<float>(likelihood.mean[1]);
-  single_.heading_rad[0] = static_cast<float>(likelihood.mean[2]);
-  single_.log_scale[0] = static_cast<float>(likelihood.mean[3]);
-  single_.axial_strain[0] = static_cast<float>(likelihood.strain[0]);
-  single_.diagonal_strain[0] = static_cast<float>(likelihood.strain[1]);
-  model_.score(single_, scores_);
-  return scores_[0] / static_cast<double>(std::max<std::size_t>(update_beams_, 1));
 }
 
 /// Registers challengers that are due and newcomers; lets the best one take over if it has won.
@@ -162,11 +149,9 @@ void Localizer::ask(std::vector<Challenger> asked) {
       continue;  // a warp that folds: nothing is there
     }
     Challenger& one = asked[i];
-    one.belief.add({.way_m = one.way_since_look_m,
-                    .new_share = challengers_.new_share(one),
-                    .evidence = evidence_at(*found[i]),
-                    .inlier_probability = found[i]->inlier_probability},
-                   params_.localized);
+    LocalizedSigns signs{.way_m = one.way_since_look_m, .new_share = challengers_.new_share(one)};
+    show(signs, &*found[i]);
+    one.belief.add(signs, params_.localized);
     one.sketch_from_robot = found[i]->sketch_from_robot;
     one.way_since_look_m = 0.0;
     challengers_.add(one);

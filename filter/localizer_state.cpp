@@ -54,7 +54,6 @@ void Localizer::save(StateWriter& state) const {
   challengers_.save(state);
   state.put(report_.localized_probability);
   state.put(update_share_);
-  state.put<std::uint64_t>(update_beams_);
   state.put(way_since_signs_m_);
   state.put(last_scan_from_robot_);
   if (last_scan_from_robot_) {
@@ -83,7 +82,6 @@ void Localizer::load(StateReader& state) {
   challengers_.load(state);
   report_.localized_probability = state.get_finite();
   update_share_ = state.get_finite();
-  update_beams_ = state.get<std::uint64_t>();
   way_since_signs_m_ = state.get_finite();
   last_scan_from_robot_ = state.get_optional_se2();
   if (last_scan_from_robot_) {

@@ -14,6 +14,7 @@ struct NetworkPredictorParams {
   LocalWindow window;        ///< of the first look: the one that the network was trained with
   int looks = 2;             ///< ours: how often it looks, from its own last result, >= 1
   double fine_side_m = 7.0;  ///< ours: side of the window of all looks but the first, > 0
+  bool verify = true;        ///< ours: see make_verified_predictor
 };
 
 template <typename Visitor>
@@ -21,6 +22,7 @@ void visit_fields(NetworkPredictorParams& params, Visitor&& visit) {
   visit("window", params.window);
   visit("looks", params.looks);
   visit("fine_side_m", params.fine_side_m);
+  visit("verify", params.verify);
 }
 
 /// Throws std::invalid_argument naming the field, its range and its value.

@@ -29,6 +29,9 @@ SKETCHLOC_EMBED(chen20);
 #ifdef SKETCHLOC_HAS_affine
 SKETCHLOC_EMBED(affine);
 #endif
+#ifdef SKETCHLOC_HAS_verify
+SKETCHLOC_EMBED(verify);
+#endif
 #ifdef SKETCHLOC_HAS_places
 SKETCHLOC_EMBED(places);
 #endif
@@ -61,6 +64,14 @@ std::span<const std::uint8_t> shipped_network(NetworkKind kind) {
   }
   check(false, "a kind of predictor");
   return {};
+}
+
+std::span<const std::uint8_t> shipped_verification() {
+#ifdef SKETCHLOC_HAS_verify
+  return {sketchloc_verify_begin, sketchloc_verify_end};
+#else
+  return {};
+#endif
 }
 
 std::span<const std::uint8_t> shipped_place_classifier() {

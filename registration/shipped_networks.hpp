@@ -11,6 +11,9 @@ namespace sketchloc {
 /// where there is none.
 std::span<const std::uint8_t> shipped_network(NetworkKind kind);
 
+/// The same: the one that tells whether the robot is where its scans were registered.
+std::span<const std::uint8_t> shipped_verification();
+
 /// The same: the one that tells kinds of places, and the one that compares them (topology/).
 std::span<const std::uint8_t> shipped_place_classifier();
 std::span<const std::uint8_t> shipped_place_comparator();

@@ -26,6 +26,9 @@ struct Registration {
   /// e, a Student t with kErrorDegrees around 0. None where the predictor does not know.
   std::optional<Eigen::Matrix4d> covariance;
   double inlier_probability = 1.0;  ///< that the pose is right at all, in [0, 1]
+  /// Log odds that the robot is there and nowhere else (registration/verified_predictor.hpp); none:
+  /// nobody looked.
+  std::optional<double> place_log_odds = std::nullopt;
 };
 
 /// Registers scans in drawings from prior poses.

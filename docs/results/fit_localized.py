@@ -20,10 +20,11 @@ import sys
 RIGHT_M, RIGHT_RAD = 2.0, 0.5236
 CARRIED, CARRIED_SLOPE, FOUND_M = 0.1, 100.0, 50.0
 MOST_LOG_ODDS = 20.0
+MOST_PLACE = 7.0
 LEAST = 1e-3
 
 # Name, where the search starts, its first step, its least value.
-REGISTERED = [("evidence", 0.5, 0.4, -math.inf), ("quality_mean", 3.0, 1.0, -math.inf),
+REGISTERED = [("place", 1.0, 0.4, -math.inf), ("quality_mean", 3.0, 1.0, -math.inf),
               ("quality_sigma", 1.0, 0.4, 0.05), ("log quality_way_m", 3.0, 0.7, 0.0),
               ("right_sigma", 2.0, 0.5, 0.1), ("wrong_mean", -0.5, 0.5, -math.inf),
               ("wrong_sigma", 3.0, 0.7, 0.1), ("log lost_way_m", 4.7, 0.5, 1.0),
@@ -48,7 +49,9 @@ def read(path, method):
         for i, signs in enumerate(errors["signs"]):
             right = errors["translation_m"][i] <= RIGHT_M and errors["heading_rad"][i] <= RIGHT_RAD
             if signs is not None:
-                signs = (signs[0], signs[1], signs[2], log_odds(0.5 if signs[3] is None else signs[3]))
+                place = min(max(signs[4], -MOST_PLACE), MOST_PLACE)
+                signs = (signs[0], signs[1], signs[2],
+                         log_odds(0.5 if signs[3] is None else signs[3]), place)
             steps.append((signs, errors["share_within_bounds"][i], right,
                           errors["localized_probability"][i], errors["contradiction"][i]))
         start = -3.5 if trial["start"] == "anywhere" else 4.0
@@ -60,7 +63,7 @@ class Registered:
     """The log-likelihood ratio of registrations, as LocalizedBelief::hear."""
 
     def __init__(self, params):
-        (self.evidence, self.mean, self.sigma, way, self.right, self.wrong_mean, self.wrong,
+        (self.place, self.mean, self.sigma, way, self.right, self.wrong_mean, self.wrong,
          lost, self.most) = params
         self.way_m, self.lost_m = math.exp(way), math.exp(lost)
         self.z, self.variance = 0.0, 1.0
@@ -71,8 +74,8 @@ class Registered:
         self.z *= kept * memory
         self.variance = 1 + (variance - 1) * memory ** 2
 
-    def hear(self, new, e, logit):
-        x = logit + self.evidence * e
+    def hear(self, new, e, logit, place):
+        x = logit + self.place * place
         noise, prior = self.right ** 2 / new, self.sigma ** 2 * self.variance
         innovation = x - self.mean - self.sigma * self.z
         right = (-new * math.log(self.right) - 0.5 * math.log1p(prior / noise)
@@ -92,7 +95,7 @@ class Beams:
     def drive(self, way, kept):
         pass
 
-    def hear(self, new, e, logit):
+    def hear(self, new, e, logit, place):
         return new * (self.bias + self.evidence * e)
 
 
@@ -103,14 +106,14 @@ def stated(model, start, steps):
         p = stayed / (1 + math.exp(-belief))
         belief = max(math.log(max(p, 1e-12) / (1 - p)), -MOST_LOG_ODDS)
         if signs is not None:
-            way, new, e, logit = signs
+            way, new, e, logit, place = signs
             p = 1 / (1 + math.exp(-belief))
             still = p * math.exp(-way / model.lost_m)
             now = still - (1 - p) * math.expm1(-way / FOUND_M)
             model.drive(way, still / now)
             belief = math.log(now / (1 - now))
             if new > 0:
-                belief += min(max(model.hear(new, e, logit), -new * model.most), new * model.most)
+                belief += min(max(model.hear(new, e, logit, place), -new * model.most), new * model.most)
             belief = min(max(belief, -MOST_LOG_ODDS), MOST_LOG_ODDS)
         yield share / (1 + math.exp(-belief)), right
 

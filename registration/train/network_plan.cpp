@@ -1,7 +1,11 @@
 #include "registration/train/network_plan.hpp"
 
+#include <cstddef>
+#include <utility>
+
 #include "motion/check.hpp"
 #include "registration/network_output.hpp"
+#include "registration/verified_predictor.hpp"
 
 namespace sketchloc {
 namespace {
@@ -19,16 +23,15 @@ NetworkPlan published_plan(int cells, int outputs) {
                      LinearPlan{128 * left * left, 256, true}, LinearPlan{256, outputs, false}}};
 }
 
-NetworkPlan matching_plan(int cells) {
+NetworkPlan matching_plan(int cells, int outputs) {
   const int left = cells / 16;
   const MatchPlan match{.scan_channels = 2, .drawing_channels = 3};
   return {.channels = channels_of(InputKind::Residual),
           .cells = cells,
-          .outputs = ResidualOutput::kSize,
+          .outputs = outputs,
           .layers = {match, ConvolutionPlan{match.outputs(), 64, 2}, ResidualPlan{64},
                      ConvolutionPlan{64, 128, 2}, ResidualPlan{128},
-                     LinearPlan{128 * left * left, 256, true},
-                     LinearPlan{256, ResidualOutput::kSize, false}}};
+                     LinearPlan{128 * left * left, 256, true}, LinearPlan{256, outputs, false}}};
 }
 
 }  // namespace
@@ -41,10 +44,33 @@ NetworkPlan plan_network(NetworkKind kind, int cells) {
     case NetworkKind::Affine:
       return published_plan(cells, PublishedOutput::kAffineSize);
     case NetworkKind::Ours:
-      return matching_plan(cells);
+      return matching_plan(cells, ResidualOutput::kSize);
   }
   check(false, "a kind of network");
   return {};
+}
+
+NetworkPlan plan_verification(int cells) {
+  check(cells > 0 && cells % 32 == 0, "the input is halved five times");
+  return matching_plan(cells, kVerificationOutputs);
+}
+
+FoldedNetwork verification_of(const FoldedNetwork& ours) {
+  check(ours.plan.outputs == ResidualOutput::kSize, "a network of ours");
+  FoldedNetwork network = ours;
+  network.plan = plan_verification(ours.plan.cells);
+  auto& last = std::get<Linear>(network.layers.back());
+  const auto inputs = static_cast<std::size_t>(last.plan.inputs);
+  const auto logit = static_cast<std::size_t>(ResidualOutput::kInlierLogit);
+  Linear told{.plan = std::get<LinearPlan>(network.plan.layers.back())};
+  for (const float sign : {-0.5F, 0.5F}) {
+    for (std::size_t i = 0; i < inputs; ++i) {
+      told.weights.push_back(sign * last.weights[logit * inputs + i]);
+    }
+    told.bias.push_back(sign * last.bias[logit]);
+  }
+  last = std::move(told);
+  return network;
 }
 
 }  // namespace sketchloc

@@ -56,6 +56,9 @@ struct NetworkPlan {
 /// `cells`: a multiple of 32.
 NetworkPlan plan_network(NetworkKind kind, int cells);
 
+/// `Ours`, but for its outputs: wrong and right.
+NetworkPlan plan_verification(int cells);
+
 // The same with its numbers, batch normalisation folded in.
 
 struct Convolution {
@@ -92,6 +95,10 @@ struct FoldedNetwork {
   NetworkPlan plan;
   std::vector<std::variant<Convolution, Residual, Match, Linear>> layers{};
 };
+
+/// The verification network to begin with: all that a network of ours knows, its inlier logit as
+/// the difference of right and wrong.
+FoldedNetwork verification_of(const FoldedNetwork& ours);
 
 /// The bytes of an ONNX file: inputs kScanInput and kDrawingInput of a network that begins with a
 /// match, else kStackedInput; output "output". Each of 1 x channels x cells x cells.

@@ -11,7 +11,8 @@ struct PlaceBatch {
   /// One sample after the other; where pairs are compared, the first nodes of all pairs and then
   /// the second ones.
   std::vector<float> input = {};
-  std::vector<std::int64_t> answer = {};  ///< PlaceLabel; or 1 for a pair of one place, else 0
+  /// PlaceLabel; or 1 for a pair of one place and where the robot is, else 0.
+  std::vector<std::int64_t> answer = {};
 };
 
 }  // namespace sketchloc

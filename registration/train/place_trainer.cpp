@@ -49,12 +49,22 @@ torch::Tensor answers_of(const PlaceBatch& batch) {
                           torch::kInt64);
 }
 
+detail::Learner learner_of(const PlaceTrainer::Plan& plan, const NetworkPlan& network,
+                           const TrainerParams& params) {
+  const detail::Learner::Course course{.seed = plan.seed, .total_batches = plan.total_batches};
+  return plan.from ? detail::Learner(*plan.from, params, course)
+                   : detail::Learner(network, params, course);
+}
+
 }  // namespace
 
 NetworkPlan plan_network(PlaceTask task, int cells) {
   if (task == PlaceTask::SamePlace) {
     check(cells == 1, "nodes are four numbers");
     return comparator_plan();
+  }
+  if (task == PlaceTask::Verification) {
+    return plan_verification(cells);
   }
   check(cells > 0 && cells % 16 == 0, "the input is halved four times");
   return label_plan(cells);
@@ -65,14 +75,14 @@ class PlaceTrainer::Implementation {
   Implementation(const Plan& plan, const TrainerParams& params)
       : plan_(plan),
         network_(plan_network(plan.task, plan.cells)),
-        learner_(network_, params, {.seed = plan.seed, .total_batches = plan.total_batches}) {}
+        learner_(learner_of(plan, network_, params)) {}
 
   double learn(const PlaceBatch& batch) {
     return learner_.learn(input_of(batch), [&](const torch::Tensor& output) {
       const torch::Tensor answers = answers_of(batch);
-      return plan_.task == PlaceTask::Labels
-                 ? torch::cross_entropy_loss(output, answers)
-                 : contrastive_loss(output, answers.to(torch::kFloat32));
+      return plan_.task == PlaceTask::SamePlace
+                 ? contrastive_loss(output, answers.to(torch::kFloat32))
+                 : torch::cross_entropy_loss(output, answers);
     });
   }
 
@@ -102,9 +112,9 @@ class PlaceTrainer::Implementation {
     std::vector<float> output = learner_.predict(input_of(batch));
     const torch::Tensor rows =
         detail::view(output, {std::ssize(output) / network_.outputs, network_.outputs});
-    const torch::Tensor given = plan_.task == PlaceTask::Labels
-                                    ? rows.argmax(1)
-                                    : (distances(rows) < 0.5 * kMargin).to(torch::kInt64);
+    const torch::Tensor given = plan_.task == PlaceTask::SamePlace
+                                    ? (distances(rows) < 0.5 * kMargin).to(torch::kInt64)
+                                    : rows.argmax(1);
     const auto* begin = given.data_ptr<std::int64_t>();
     return {begin, begin + given.numel()};
   }

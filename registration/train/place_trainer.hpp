@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,11 +14,12 @@
 
 namespace sketchloc {
 
-/// What the networks of [Topo20] learn: the kind of a place, or whether two nodes are one place.
-enum class PlaceTask { Labels, SamePlace };
+/// What networks learn about places. Those of [Topo20]: the kind of a place, or whether two nodes
+/// are one place. `Verification`: whether the robot is where its scans were registered.
+enum class PlaceTask { Labels, SamePlace, Verification };
 
 /// `Labels`: convolutions over `cells` x `cells` cells, a multiple of 16. `SamePlace`: the
-/// perceptron of [Topo20]; `cells` is 1.
+/// perceptron of [Topo20]; `cells` is 1. `Verification`: plan_verification.
 NetworkPlan plan_network(PlaceTask task, int cells);
 
 /// A network that learns about places. The same seed, batches and threads give the same bytes.
@@ -29,6 +31,7 @@ class PlaceTrainer {
     int cells = 64;
     std::uint64_t seed = 1;
     std::uint64_t total_batches = 1;
+    std::optional<FoldedNetwork> from = std::nullopt;  ///< begin there
   };
 
   PlaceTrainer(const Plan& plan, const TrainerParams& params);
@@ -36,7 +39,8 @@ class PlaceTrainer {
   PlaceTrainer(const PlaceTrainer&) = delete;
   PlaceTrainer& operator=(const PlaceTrainer&) = delete;
 
-  /// The loss: cross entropy of labels, or the bounded contrastive loss with margin 1 of pairs.
+  /// The loss: cross entropy of labels and of right and wrong, or the bounded contrastive loss with
+  /// margin 1 of pairs.
   double learn(const PlaceBatch& batch);
   std::uint64_t batches_learned() const;
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "motion/check.hpp"
 #include "motion/validate.hpp"
 #include "registration/network_output.hpp"
 #include "registration/train/driven_submap.hpp"
@@ -40,12 +41,41 @@ Submap draw_driven_submap(const Scene& scene, const SampleParams& params, Rng& r
           .owned = {}};
 }
 
+Submap draw_submap(const Scene& scene, const SampleParams& params, Rng& rng) {
+  return uniform(rng) < params.alone_share ? draw_lone_scan(scene, rng)
+                                           : draw_driven_submap(scene, params, rng);
+}
+
 /// A prior from which a network has looked once or twice.
 Sim2 improved(const Sim2& prior, const std::vector<PlacedScan>& scans, const SketchCropper& sketch,
               const ImprovingNetworks& networks, Rng& rng) {
   WarpPredictor& network = draw_index(2, rng) == 0 ? *networks.once : *networks.twice;
   const auto found = network.predict(scans, sketch, {&prior, 1}).front();
   return found ? found->sketch_from_robot : prior;
+}
+
+/// Priors that know nothing: anywhere on the drive, headed anywhere.
+std::vector<Sim2> draw_priors_elsewhere(const Scene& scene, const SampleParams& params, Rng& rng) {
+  std::vector<Sim2> priors;
+  for (int i = 0; i < params.registered.elsewhere_priors; ++i) {
+    const Se2& on_drive = scene.drive()[draw_index(scene.drive().size(), rng)].pose;
+    const Se2 there = Se2::from_xy_yaw(on_drive.x_m(), on_drive.y_m(),
+                                       uniform(-std::numbers::pi, std::numbers::pi, rng));
+    priors.push_back(
+        draw_prior(scene.sketch_from_world().exact().sketch_from_robot(there), params.prior, rng));
+  }
+  return priors;
+}
+
+/// The prior from which one look promises most, by what the network says of being right.
+const Sim2& most_promising(const std::vector<Sim2>& priors, const std::vector<PlacedScan>& scans,
+                           const SketchCropper& sketch, WarpPredictor& once) {
+  const auto found = once.predict(scans, sketch, priors);
+  const auto promise = [](const std::optional<Registration>& one) {
+    return one ? one->inlier_probability : -1.0;
+  };
+  const auto best = std::ranges::max_element(found, {}, promise);
+  return priors[static_cast<std::size_t>(best - found.begin())];
 }
 
 template <std::size_t kSize>
@@ -109,6 +139,11 @@ void validate(const PriorError& error) {
   require_in_range("improved_share", error.improved_share, 0.0, 1.0);
 }
 
+void validate(const RegisteredParams& params) {
+  require_in_range("elsewhere_share", params.elsewhere_share, 0.0, 1.0);
+  require_in_range("elsewhere_priors", params.elsewhere_priors, 1, 64);
+}
+
 void validate(const SampleParams& params) {
   require_at_least("cells", params.cells, 16.0);
   validate(params.window());
@@ -119,6 +154,7 @@ void validate(const SampleParams& params) {
   require_at_least("scan_spacing_m", params.scan_spacing_m, 0.0);
   validate(params.submap_noise);
   validate(params.prior);
+  validate(params.registered);
 }
 
 std::vector<Eigen::Vector2d> control_points_in_robot(const LocalWindow& window) {
@@ -144,8 +180,7 @@ Sim2 draw_prior(const Sim2& sketch_from_robot, const PriorError& error, Rng& rng
 
 Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng,
                    const ImprovingNetworks& networks) {
-  const Submap submap = uniform(rng) < params.alone_share ? draw_lone_scan(scene, rng)
-                                                          : draw_driven_submap(scene, params, rng);
+  const Submap submap = draw_submap(scene, params, rng);
   Sample sample;
   sample.sketch_from_robot =
       scene.sketch_from_world().exact().sketch_from_robot(submap.world_from_robot);
@@ -165,6 +200,27 @@ Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kin
   } else {
     label_warp(sample, scene, submap.world_from_robot);
   }
+  return sample;
+}
+
+Sample draw_registered(const Scene& scene, const SampleParams& params, Rng& rng,
+                       const ImprovingNetworks& networks) {
+  check(networks.once != nullptr && networks.twice != nullptr, "networks that register");
+  const Submap submap = draw_submap(scene, params, rng);
+  Sample sample;
+  sample.sketch_from_robot =
+      scene.sketch_from_world().exact().sketch_from_robot(submap.world_from_robot);
+  sample.window = params.window();
+  Sim2 prior = draw_prior(sample.sketch_from_robot, params.prior, rng);
+  if (uniform(rng) < params.registered.elsewhere_share) {
+    const std::vector<Sim2> priors = draw_priors_elsewhere(scene, params, rng);
+    prior = most_promising(priors, submap.scans, scene.sketch(), *networks.once);
+  }
+  const auto found = networks.twice->predict(submap.scans, scene.sketch(), {&prior, 1}).front();
+  sample.prior_sketch_from_robot = found ? found->sketch_from_robot : prior;
+  sample.input = network_input(InputKind::Residual, submap.scans, scene.sketch(),
+                               sample.prior_sketch_from_robot, sample.window);
+  label_pose(sample);
   return sample;
 }
 

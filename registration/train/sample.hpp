@@ -36,6 +36,19 @@ void visit_fields(PriorError& error, Visitor&& visit) {
   visit("improved_share", error.improved_share);
 }
 
+/// Of which registrations it is learned whether the robot is there (draw_registered).
+struct RegisteredParams {
+  double elsewhere_share =
+      0.6;                   ///< of the samples whose priors are anywhere on the drive, in [0, 1]
+  int elsewhere_priors = 3;  ///< so many, of which the most promising registration is taken, >= 1
+};
+
+template <typename Visitor>
+void visit_fields(RegisteredParams& registered, Visitor&& visit) {
+  visit("elsewhere_share", registered.elsewhere_share);
+  visit("elsewhere_priors", registered.elsewhere_priors);
+}
+
 /// What a sample shows.
 struct SampleParams {
   double side_m = 16.0;           ///< of the window, > 0
@@ -51,6 +64,7 @@ struct SampleParams {
                                 .turn_rad_per_m = 0.005,
                                 .turn_rad_per_rad = 0.01};
   PriorError prior{};
+  RegisteredParams registered{};
 
   LocalWindow window() const { return {.side_m = side_m, .cells = cells, .ahead_m = ahead_m}; }
 };
@@ -67,10 +81,12 @@ void visit_fields(SampleParams& sample, Visitor&& visit) {
   visit("scan_spacing_m", sample.scan_spacing_m);
   visit("submap_noise", sample.submap_noise);
   visit("prior", sample.prior);
+  visit("registered", sample.registered);
 }
 
 /// Throw std::invalid_argument naming the field, its range and its value.
 void validate(const PriorError& error);
+void validate(const RegisteredParams& params);
 void validate(const SampleParams& params);
 
 inline constexpr int kGridPerSide = 20;  ///< of the points at which a warp is judged
@@ -112,5 +128,11 @@ Sim2 draw_prior(const Sim2& sketch_from_robot, const PriorError& error, Rng& rng
 
 Sample draw_sample(const Scene& scene, const SampleParams& params, InputKind kind, Rng& rng,
                    const ImprovingNetworks& networks = {});
+
+/// Something registered, of which to learn whether the robot is there: the prior is where a network
+/// found the scans, from a prior near the truth or from anywhere in the building. Of the truth only
+/// the pose is told.
+Sample draw_registered(const Scene& scene, const SampleParams& params, Rng& rng,
+                       const ImprovingNetworks& networks);
 
 }  // namespace sketchloc

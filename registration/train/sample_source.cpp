@@ -159,8 +159,10 @@ class SampleSource::Work {
         const std::uint64_t sample =
             batch * static_cast<std::uint64_t>(params_.batch) + static_cast<std::uint64_t>(index);
         Rng rng = make_rng(sample_seed_, sample);
+        const Scene& scene = scene_for(slot, sample);
         put(target, static_cast<std::size_t>(index),
-            draw_sample(scene_for(slot, sample), params_.sample, stream_.kind, rng, networks));
+            stream_.registered ? draw_registered(scene, params_.sample, rng, networks)
+                               : draw_sample(scene, params_.sample, stream_.kind, rng, networks));
       }
     }
   }

@@ -62,6 +62,7 @@ class SampleSource {
     /// A network of ours, as the bytes of an ONNX file, that improves priors (PriorError); empty:
     /// nothing does.
     std::string improving_network = {};
+    bool registered = false;  ///< samples as of draw_registered, by that network
   };
 
   SampleSource(const SampleSourceParams& params, const Stream& stream, int threads);

@@ -41,14 +41,16 @@ double density(double x, double mean, double sigma) {
 TEST(LocalizedBelief, WeighsRegistrationsByWhatTheDrawingIsGoodFor) {
   LocalizedParams params = plain_params();
   params.registered.quality_way_m = 1e12;
-  params.registered.evidence = 2.0;
+  params.registered.place = 0.5;
   const RegistrationSigns& signs = params.registered;
   const std::array<double, 3> inliers = {0.9, 0.3, 0.6};
   LocalizedBelief belief{.log_odds = 0.3};
   double wrong = 1.0;
   for (const double inlier : inliers) {
-    belief.add({.new_share = 1.0, .evidence = -0.25, .inlier_probability = inlier}, params);
-    wrong *= density(std::log(inlier / (1.0 - inlier)) - 0.5, signs.wrong_mean, signs.wrong_sigma);
+    belief.add(
+        {.new_share = 1.0, .evidence = -0.25, .inlier_probability = inlier, .place_log_odds = 1.5},
+        params);
+    wrong *= density(std::log(inlier / (1.0 - inlier)) + 0.75, signs.wrong_mean, signs.wrong_sigma);
   }
   constexpr double kStep = 1e-3;
   double right = 0.0;
@@ -56,7 +58,7 @@ TEST(LocalizedBelief, WeighsRegistrationsByWhatTheDrawingIsGoodFor) {
   for (double z = -8.0; z <= 8.0; z += kStep) {
     double likelihood = density(z, 0.0, 1.0) / std::sqrt(2.0 * std::numbers::pi) * kStep;
     for (const double inlier : inliers) {
-      likelihood *= density(std::log(inlier / (1.0 - inlier)) - 0.5,
+      likelihood *= density(std::log(inlier / (1.0 - inlier)) + 0.75,
                             signs.quality_mean + signs.quality_sigma * z, signs.right_sigma);
     }
     right += likelihood;
@@ -87,7 +89,7 @@ TEST(LocalizedBelief, ForgetsTheQualityWithTheWay) {
   belief.add({.inlier_probability = 0.1}, params);
   EXPECT_LT(belief.quality.mean, -0.3);
   EXPECT_LT(belief.quality.variance, 1.0);
-  belief.add({.way_m = 1000.0}, params);
+  belief.add({.way_m = 5000.0}, params);
   EXPECT_NEAR(belief.quality.mean, 0.0, 1e-6);
   EXPECT_NEAR(belief.quality.variance, 1.0, 1e-6);
 }

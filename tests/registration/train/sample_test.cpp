@@ -94,6 +94,57 @@ TEST(Sample, LooksAgainThroughAFinerWindow) {
   EXPECT_GT(most_m, params.max_fine_side_m - 1.0);
 }
 
+/// Finds every prior right, the last one by far the surest.
+class SureOfTheLast final : public WarpPredictor {
+ public:
+  std::vector<std::optional<Registration>> predict(std::span<const PlacedScan>,
+                                                   const SketchCropper&,
+                                                   std::span<const Sim2> priors) override {
+    std::vector<std::optional<Registration>> found;
+    for (const Sim2& prior : priors) {
+      found.emplace_back(testing::similarity_registration(prior));
+      found.back()->inlier_probability = 0.1;
+    }
+    found.back()->inlier_probability = 0.9;
+    asked_ = std::max(asked_, priors.size());
+    last_ = priors.back();
+    return found;
+  }
+
+  std::size_t asked_ = 0;
+  Sim2 last_;
+};
+
+TEST(Sample, OfSomethingRegisteredIsWhereItWasFound) {
+  SureOfTheLast network;
+  const ImprovingNetworks networks{.once = &network, .twice = &network};
+  SampleParams params{.prior = no_error()};
+  int near = 0;
+  for (const double elsewhere_share : {0.0, 1.0}) {
+    params.registered.elsewhere_share = elsewhere_share;
+    for (std::uint64_t seed = 0; seed < 30; ++seed) {
+      Rng rng = make_rng(seed, 8);
+      const Sample sample = draw_registered(spline_home(), params, rng, networks);
+      EXPECT_THAT(sample.prior_sketch_from_robot, IsNear(network.last_, 1e-12));
+      const double off_m = (sample.sketch_from_robot.inverse() * sample.prior_sketch_from_robot)
+                               .translation()
+                               .norm();
+      const double unit = unit_m(sample.window);
+      const Sim2 told = Sim2::from_xy_yaw_scale(unit * sample.pose[0], unit * sample.pose[1],
+                                                sample.pose[2], std::exp(sample.pose[3]));
+      EXPECT_THAT(sample.prior_sketch_from_robot * told, IsNear(sample.sketch_from_robot, 1e-3));
+      EXPECT_EQ(sample.input.size(), 5U * 64U * 64U);
+      if (elsewhere_share == 0.0) {
+        EXPECT_LT(off_m, 1e-9);
+      } else {
+        near += off_m < 2.0 ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_LT(near, 20);  // of 30 in a home
+  EXPECT_EQ(network.asked_, static_cast<std::size_t>(params.registered.elsewhere_priors));
+}
+
 TEST(Sample, GridLabelsAndControlLabelsAreOfOneWarp) {
   Rng rng = make_rng(4);
   const SampleParams params{.prior = no_error()};
@@ -172,6 +223,8 @@ TEST(Sample, RefusesParametersOutOfRange) {
   EXPECT_THROW(validate(SampleParams{.min_fine_side_m = 9.0, .max_fine_side_m = 8.0}),
                std::invalid_argument);
   EXPECT_THROW(validate(PriorError{.least_size = 0.0}), std::invalid_argument);
+  EXPECT_THROW(validate(RegisteredParams{.elsewhere_share = 1.5}), std::invalid_argument);
+  EXPECT_THROW(validate(RegisteredParams{.elsewhere_priors = 0}), std::invalid_argument);
   EXPECT_THROW(validate(SceneParams{.home_share = 0.7, .office_share = 0.7}),
                std::invalid_argument);
 }

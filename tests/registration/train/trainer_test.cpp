@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "registration/detail/match_layer.hpp"
+#include "registration/network_output.hpp"
 
 namespace sketchloc {
 namespace {
@@ -139,6 +140,26 @@ TEST_P(TrainerOf, RefusesToGoOnFromWhatIsNotOfItsKind) {
   const NetworkPlan own = plan_network(GetParam(), kSample.cells);
   EXPECT_THROW(network_of_onnx(own, "no network"), std::runtime_error);
   EXPECT_THROW(network_of_onnx(own, ""), std::runtime_error);
+}
+
+TEST(VerificationNetwork, BeginsWithWhatOursSaysOfBeingRight) {
+  const FoldedNetwork ours =
+      Trainer({.kind = NetworkKind::Ours, .window = kSample.window(), .seed = 3}, TrainerParams{})
+          .folded();
+  const FoldedNetwork begun =
+      network_of_onnx(plan_verification(kSample.cells), onnx_bytes(verification_of(ours)));
+  const auto& last = std::get<Linear>(begun.layers.back());
+  const auto& last_of_ours = std::get<Linear>(ours.layers.back());
+  const auto inputs = static_cast<std::size_t>(last.plan.inputs);
+  const std::size_t logit = static_cast<std::size_t>(ResidualOutput::kInlierLogit);
+  ASSERT_EQ(last.weights.size(), 2 * inputs);
+  for (std::size_t i = 0; i < inputs; ++i) {
+    EXPECT_FLOAT_EQ(last.weights[inputs + i] - last.weights[i],
+                    last_of_ours.weights[logit * inputs + i]);
+  }
+  EXPECT_FLOAT_EQ(last.bias[1] - last.bias[0], last_of_ours.bias[logit]);
+  EXPECT_EQ(std::get<Linear>(begun.layers[begun.layers.size() - 2]).weights,
+            std::get<Linear>(ours.layers[ours.layers.size() - 2]).weights);
 }
 
 TEST_P(TrainerOf, JudgesByPoses) {
