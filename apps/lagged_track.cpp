@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "apps/track_lines.hpp"
-#include "eval/lagged_localization.hpp"
+#include "eval/smoothed_localization.hpp"
 
 namespace sketchloc {
 

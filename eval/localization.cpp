@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "eval/filter_pass.hpp"
-#include "eval/lagged_localization.hpp"
 #include "eval/robot_finder.hpp"
 #include "eval/smoothed_localization.hpp"
 #include "motion/check.hpp"
@@ -72,15 +71,9 @@ Localization chain(const Sketch& sketch, const Run& run, const LocalizationTask&
 Localization filter_and_smooth(const Sketch& sketch, const Run& run, const LocalizationTask& task,
                                const LocalizationParams& params,
                                const std::function<void(std::size_t)>& progress) {
-  switch (task.smoothing) {
-    case Smoothing::None:
-      return filter_pass(sketch, run, task, params, progress);
-    case Smoothing::Lagged:
-      return localize_with_lag(sketch, run, task, params, progress);
-    case Smoothing::Whole:
-      return localize_and_smooth(sketch, run, task, params, progress);
-  }
-  return {};
+  return task.smoothing == Smoothing::None
+             ? filter_pass(sketch, run, task, params, progress)
+             : localize_and_smooth(sketch, run, task, params, progress);
 }
 
 }  // namespace
@@ -123,7 +116,7 @@ Localization localize(const Sketch& sketch, const Run& run, const LocalizationTa
 }
 
 std::size_t steps_of_work(const Run& run, const LocalizationTask& task) {
-  return (task.smoothing == Smoothing::Whole ? 2 : 1) * run.steps.size();
+  return (task.smoothing == Smoothing::None ? 1 : 2) * run.steps.size();
 }
 
 std::optional<double> guess_px_per_m(const Sketch& sketch, const Eigen::Vector2d& place_in_sketch,

@@ -1,7 +1,8 @@
 #include "eval/smoothed_localization.hpp"
 
 #include <algorithm>
-#include <span>
+#include <limits>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -10,57 +11,6 @@
 
 namespace sketchloc {
 namespace {
-
-constexpr Around kSides[] = {Around::Before, Around::After, Around::Both};
-
-/// The steps of a filter that starts where the robot ended and goes back to where it began.
-std::vector<StepReport> filter_backwards(const Sketch& sketch, const Run& run,
-                                         const LocalizationTask& task,
-                                         const LocalizationParams& params,
-                                         const std::function<void(std::size_t)>& progress) {
-  Run back = run;
-  std::ranges::reverse(back.steps);
-  std::vector<StepReport> steps = filter_pass(sketch, back, task, params, [&](std::size_t done) {
-                                    if (progress) {
-                                      progress(run.steps.size() + done);
-                                    }
-                                  }).steps;
-  std::ranges::reverse(steps);
-  return steps;
-}
-
-/// The heaviest modes of both filters at each step.
-std::vector<std::vector<Sim2>> modes_of(std::span<const StepReport> forward,
-                                        std::span<const StepReport> backward, int most) {
-  std::vector<std::vector<Sim2>> poses(forward.size());
-  for (std::size_t step = 0; step < forward.size(); ++step) {
-    for (const StepReport* report : {&forward[step], &backward[step]}) {
-      const std::vector<Mode>& modes = report->estimate.modes;
-      for (std::size_t i = 0; i < std::min(static_cast<std::size_t>(most), modes.size()); ++i) {
-        poses[step].push_back(modes[i].sketch_from_robot);
-      }
-    }
-  }
-  return poses;
-}
-
-/// The keyframes of a run with what registering says at each, from the priors of its step.
-KeyframeRun registered_keyframes(const Run& run, const std::vector<std::vector<Sim2>>& priors,
-                                 const Sketch& sketch, const LocalizationTask& task,
-                                 const KeyframeParams& params) {
-  const SketchCropper drawing(sketch);
-  KeyframeRun result{.start_sketch_from_robot = task.start_sketch_from_robot,
-                     .keyframes = keyframes_of(run.steps, params)};
-  for (Keyframe& keyframe : result.keyframes) {
-    for (const Around side : kSides) {
-      const std::vector<PoseHypothesis> found =
-          register_at(submap_around(run.steps, keyframe.step, side, params.submap), drawing,
-                      *task.predictor, priors[keyframe.step]);
-      keyframe.hypotheses.insert(keyframe.hypotheses.end(), found.begin(), found.end());
-    }
-  }
-  return result;
-}
 
 /// The filter's reports with the smoothed poses in the place of its own.
 std::vector<StepReport> smoothed_steps(std::vector<StepReport> steps, const Run& run,
@@ -82,7 +32,53 @@ std::vector<StepReport> smoothed_steps(std::vector<StepReport> steps, const Run&
   return steps;
 }
 
+/// The lag of a run that is smoothed afterwards: every pose is known once all of it is.
+LagParams whole(LagParams lag) {
+  lag.lag_m = std::numeric_limits<double>::max();
+  return lag;
+}
+
+/// Smooths all that a smoother has seen of a run as one.
+void smooth_whole(LagSmoother& smoother, const Run& run, const SmoothingPlan& plan,
+                  Localization& result) {
+  result.keyframes = smoother.known();
+  if (plan.places) {
+    result.keyframes.pairs = place_pairs(run, result.keyframes.keyframes, plan.place_pairs);
+  }
+  const SmoothedRun smoothed = smooth(result.keyframes, plan.smoothing);
+  if (smoothed.status == SmoothedRun::Status::Done) {
+    result.filtered = result.steps;
+    result.steps = smoothed_steps(std::move(result.steps), run, result.keyframes, smoothed);
+  }
+}
+
 }  // namespace
+
+std::vector<PoseHypothesis> believed_by(const StepReport& report, int max_modes) {
+  const std::vector<Mode>& modes = report.estimate.modes;
+  std::vector<PoseHypothesis> believed;
+  for (std::size_t i = 0; i < std::min(modes.size(), static_cast<std::size_t>(max_modes)); ++i) {
+    believed.push_back(hypothesis_of(modes[i].sketch_from_robot, modes[i].covariance,
+                                     report.localized_probability * modes[i].weight));
+  }
+  return believed;
+}
+
+StepBack filter_back(const Sketch& sketch, const LocalizerParams& params, WarpPredictor& predictor,
+                     int max_modes) {
+  const auto localizer = std::make_shared<Localizer>(sketch, params, &predictor);
+  return [localizer, max_modes](const RunStep& step, const std::optional<Sim2>& start) {
+    if (start) {
+      localizer->start_at(*start);
+    }
+    std::vector<Sim2> poses;
+    for (const PoseHypothesis& one :
+         believed_by(localizer->step(step.scan, step.odom_from_robot), max_modes)) {
+      poses.push_back(one.sketch_from_robot);
+    }
+    return poses;
+  };
+}
 
 StepReport smoothed_report(StepReport report, const SmoothedPose& pose) {
   report.estimate = {.sketch_from_robot = pose.sketch_from_robot,
@@ -98,7 +94,7 @@ StepReport smoothed_report(StepReport report, const SmoothedPose& pose) {
 Localization localize_and_smooth(const Sketch& sketch, const Run& run, const LocalizationTask& task,
                                  const LocalizationParams& params,
                                  const std::function<void(std::size_t)>& progress) {
-  check(task.predictor != nullptr, "smoothing registers");
+  check(task.predictor != nullptr && task.smoothing != Smoothing::None, "smoothing registers");
   const Run refined = with_odometry(run, task, params.odometry);
   LocalizationTask pass = task;
   pass.odometry = OdometrySource::Raw;  // it is refined already
@@ -106,20 +102,40 @@ Localization localize_and_smooth(const Sketch& sketch, const Run& run, const Loc
   if (result.status != Localization::Status::Done) {
     return result;
   }
-  pass.start_sketch_from_robot = result.steps.back().estimate.sketch_from_robot;
-  const std::vector<StepReport> back = filter_backwards(sketch, refined, pass, params, progress);
-  result.keyframes =
-      registered_keyframes(refined, modes_of(result.steps, back, params.smoothing.max_modes),
-                           sketch, task, params.smoothing.keyframes);
-  if (params.smoothing.places) {
-    result.keyframes.pairs =
-        place_pairs(refined, result.keyframes.keyframes, params.smoothing.place_pairs);
+  const SmoothingPlan& plan = params.smoothing;
+  const bool is_whole = task.smoothing == Smoothing::Whole;
+  const SketchCropper drawing(sketch);
+  LagSmoother smoother(
+      {.drawing = drawing,
+       .predictor = *task.predictor,
+       .step_back = filter_back(sketch, params.localizer, *task.predictor, plan.max_modes)},
+      {.lag = is_whole ? whole(plan.lag) : plan.lag,
+       .keyframes = plan.keyframes,
+       .smoothing = plan.smoothing,
+       .max_modes = plan.max_modes},
+      task.start_sketch_from_robot);
+  std::vector<StepReport> lagged = result.steps;
+  const auto keep = [&] {
+    for (const LaggedPose& pose : smoother.take()) {
+      lagged[pose.step] = smoothed_report(std::move(lagged[pose.step]), pose.pose);
+    }
+  };
+  for (std::size_t i = 0; i < refined.steps.size(); ++i) {
+    smoother.add(refined.steps[i], believed_by(result.steps[i], plan.max_modes));
+    while (smoother.work()) {
+    }
+    keep();
+    if (progress) {
+      progress(refined.steps.size() + i + 1);
+    }
   }
-  const SmoothedRun smoothed = smooth(result.keyframes, params.smoothing.smoothing);
-  if (smoothed.status == SmoothedRun::Status::Done) {
-    result.filtered = result.steps;
-    result.steps = smoothed_steps(std::move(result.steps), refined, result.keyframes, smoothed);
+  if (is_whole) {
+    smooth_whole(smoother, refined, plan, result);
+    return result;
   }
+  smoother.finish();
+  keep();
+  result.filtered = std::exchange(result.steps, std::move(lagged));
   return result;
 }
 

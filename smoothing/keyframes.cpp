@@ -52,30 +52,6 @@ void validate(const KeyframeParams& params) {
   validate_part("submap", params.submap);
 }
 
-std::vector<Keyframe> keyframes_of(std::span<const RunStep> steps, const KeyframeParams& params) {
-  validate(params);
-  std::vector<Keyframe> keyframes;
-  double way_m = 0.0;
-  double turn_rad = 0.0;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    if (i > 0) {
-      const Se2 moved = odometry_increment(steps[i - 1].odom_from_robot, steps[i].odom_from_robot);
-      way_m += moved.translation().norm();
-      turn_rad += std::abs(moved.yaw_rad());
-    }
-    if (i == 0 || way_m >= params.way_m || turn_rad >= params.turn_rad) {
-      keyframes.push_back({.step = i,
-                           .time_s = steps[i].scan.time_s,
-                           .odom_from_robot = steps[i].odom_from_robot,
-                           .way_m = way_m,
-                           .turn_rad = turn_rad});
-      way_m = 0.0;
-      turn_rad = 0.0;
-    }
-  }
-  return keyframes;
-}
-
 std::vector<PlacedScan> submap_around(std::span<const RunStep> steps, std::size_t step,
                                       Around which, const RecentScansParams& params) {
   check(step < steps.size(), "a step of the run");

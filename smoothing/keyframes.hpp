@@ -29,10 +29,6 @@ void visit_fields(KeyframeParams& params, Visitor&& visit) {
 /// Throws std::invalid_argument naming the field, its range and its value.
 void validate(const KeyframeParams& params);
 
-/// The keyframes of a run, without hypotheses: the first step, then one after each way or turn.
-/// The run has matched odometry, as below.
-std::vector<Keyframe> keyframes_of(std::span<const RunStep> steps, const KeyframeParams& params);
-
 /// The scans around a step, that one first, then outwards in time.
 enum class Around { Before, After, Both };
 std::vector<PlacedScan> submap_around(std::span<const RunStep> steps, std::size_t step,

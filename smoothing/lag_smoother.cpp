@@ -1,17 +1,34 @@
 #include "smoothing/lag_smoother.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
 #include "motion/validate.hpp"
 
 namespace sketchloc {
+namespace {
+
+/// Of being right, as a filter states it for the poses that it believes in.
+double log_odds(std::span<const PoseHypothesis> believed) {
+  constexpr double kLeast = 1e-3;
+  double sum = 0.0;
+  for (const PoseHypothesis& one : believed) {
+    sum += one.inlier_probability;
+  }
+  const double probability = std::clamp(sum, kLeast, 1.0 - kLeast);
+  return std::log(probability / (1.0 - probability));
+}
+
+}  // namespace
 
 void validate(const LagParams& params) {
   require_above("lag_m", params.lag_m, 0.0);
   require_above("memory_m", params.memory_m, 0.0);
   require_above("back_every_m", params.back_every_m, 0.0);
+  require_above("back_m", params.back_m, 0.0);
+  require_above("back_on_log_odds", params.back_on_log_odds, 0.0);
   validate_part("hindsight", params.hindsight);
   require_at_least("max_behind", params.max_behind, 1);
 }
@@ -52,12 +69,24 @@ void LagSmoother::add(const RunStep& step, std::span<const PoseHypothesis> belie
   tasks_.push_back({.kind = Task::Kind::Smooth, .keyframe = newest});
 }
 
-void LagSmoother::finish() {
+void LagSmoother::look_at_the_rest() {
   while (work()) {
   }
   for (; next_to_look_back_ < window_.end(); ++next_to_look_back_) {
     do_task({.kind = Task::Kind::LookBack, .keyframe = next_to_look_back_});
   }
+}
+
+KeyframeRun LagSmoother::known() {
+  look_at_the_rest();
+  const std::span<const Keyframe> keyframes = window_.keyframes();
+  return {.start_sketch_from_robot = start_sketch_from_robot_,
+          .start_probability = start_probability_,
+          .keyframes = {keyframes.begin(), keyframes.end()}};
+}
+
+void LagSmoother::finish() {
+  look_at_the_rest();
   if (window_.first() < window_.end()) {
     smooth_until(window_.end() - 1, std::numeric_limits<double>::infinity());
   }
@@ -112,8 +141,15 @@ bool LagSmoother::do_task(const Task& task) {
   return true;
 }
 
+bool LagSmoother::goes_on(std::size_t from, std::size_t keyframe) const {
+  const double back_m = window_.way_m(from) - window_.way_m(keyframe);
+  const bool knew_less = log_odds(window_.believed_at(keyframe)) + params_.lag.back_on_log_odds <
+                         log_odds(window_.believed_at(from));
+  return back_m <= params_.lag.lag_m && (back_m <= params_.lag.back_m || knew_less);
+}
+
 /// Steps a filter back by a scan, and registers where that was a keyframe's, once the scans after
-/// it are all there; true at the end of the lag.
+/// it are all there; true where it has gone far enough.
 bool LagSmoother::go_back(std::size_t from) {
   const bool begins = !going_back_;
   if (begins) {
@@ -127,9 +163,7 @@ bool LagSmoother::go_back(std::size_t from) {
     if (window_.saw_all_after(keyframe)) {
       window_.look_back(keyframe, poses);
     }
-    const bool is_end = keyframe == window_.first() ||
-                        window_.way_m(from) - window_.way_m(keyframe) > params_.lag.lag_m;
-    if (is_end) {
+    if (keyframe == window_.first() || !goes_on(from, keyframe)) {
       return true;
     }
     --keyframe;
@@ -156,10 +190,10 @@ void LagSmoother::smooth_until(std::size_t keyframe, double until_way_m) {
   if (!is_any_due) {
     return;
   }
-  const auto known = window_.keyframes().first(keyframe + 1 - window_.first());
+  const auto until = window_.keyframes().first(keyframe + 1 - window_.first());
   const KeyframeRun run{.start_sketch_from_robot = start_sketch_from_robot_,
                         .start_probability = start_probability_,
-                        .keyframes = {known.begin(), known.end()}};
+                        .keyframes = {until.begin(), until.end()}};
   const SmoothedRun result = smoothed(run);
   give_out(run, result.poses, until_way_m);
   forget_before(until_way_m - params_.lag.memory_m, result.poses);

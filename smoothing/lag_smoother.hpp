@@ -16,7 +16,11 @@ namespace sketchloc {
 struct LagParams {
   double lag_m = 10.0;        ///< way from a pose to where it is given out, > 0
   double memory_m = 20.0;     ///< way before that which has a say too, > 0
-  double back_every_m = 2.5;  ///< way between the filters that go back through the lag, > 0
+  double back_every_m = 2.5;  ///< way between the filters that go back, > 0
+  double back_m = 10.0;       ///< how far they go, at most through the lag, > 0
+  /// And on, for as long as the filter's log odds of being right were less than where it starts, by
+  /// this, > 0: where a lost robot has been found, one wants to know it for the way before too.
+  double back_on_log_odds = 3.0;
   HindsightParams hindsight;
   int max_behind = 4;  ///< keyframes that may wait before work is left out, >= 1
 };
@@ -26,6 +30,8 @@ void visit_fields(LagParams& params, Visitor&& visit) {
   visit("lag_m", params.lag_m);
   visit("memory_m", params.memory_m);
   visit("back_every_m", params.back_every_m);
+  visit("back_m", params.back_m);
+  visit("back_on_log_odds", params.back_on_log_odds);
   visit("hindsight", params.hindsight);
   visit("max_behind", params.max_behind);
 }
@@ -88,6 +94,10 @@ class LagSmoother {
   /// No scans will come: the poses that are left are found with what there is.
   void finish();
 
+  /// No scans will come: does what is left of the work, and gives all that is known of the way that
+  /// is not forgotten, for one smoothing of the whole; a lag beyond the run's way forgets nothing.
+  KeyframeRun known();
+
   bool has_work() const { return !tasks_.empty(); }
 
   /// Does the next bit: a keyframe's registrations, a step back, or a smoothing. False: there is
@@ -122,7 +132,9 @@ class LagSmoother {
 
   bool is_behind() const;
   bool do_task(const Task& task);
+  void look_at_the_rest();
   bool go_back(std::size_t from);
+  bool goes_on(std::size_t from, std::size_t keyframe) const;
   void smooth_until(std::size_t keyframe, double until_way_m);
   SmoothedRun smoothed(const KeyframeRun& run) const;
   void give_out(const KeyframeRun& run, std::span<const SmoothedPose> poses, double until_way_m);

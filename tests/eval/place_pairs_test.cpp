@@ -7,7 +7,7 @@
 #include "datasets/sim/drive.hpp"
 #include "datasets/sim/lidar_model.hpp"
 #include "datasets/sim/plan_generators.hpp"
-#include "smoothing/keyframes.hpp"
+#include "tests/support/no_registrations.hpp"
 
 namespace sketchloc {
 namespace {
@@ -28,7 +28,7 @@ Run drive_through_warehouse() {
 
 TEST(PlacePairs, JoinKeyframesThatLieBesideEachOther) {
   const sketchloc::Run run = drive_through_warehouse();
-  const std::vector<Keyframe> keyframes = keyframes_of(run.steps, {});
+  const std::vector<Keyframe> keyframes = testing::keyframes_of(run.steps);
   const PlacePairParams params;
   const std::vector<KeyframePair> pairs = place_pairs(run, keyframes, params);
   ASSERT_GT(pairs.size(), 10U);
@@ -50,7 +50,7 @@ TEST(PlacePairs, JoinKeyframesThatLieBesideEachOther) {
 TEST(PlacePairs, ThereAreNoneWithoutAWay) {
   sketchloc::Run run = drive_through_warehouse();
   run.steps.resize(3);
-  EXPECT_TRUE(place_pairs(run, keyframes_of(run.steps, {})).empty());
+  EXPECT_TRUE(place_pairs(run, testing::keyframes_of(run.steps)).empty());
 }
 
 TEST(PlacePairs, RefuseParametersOutOfRange) {

@@ -24,25 +24,6 @@ std::vector<RunStep> straight_steps(int count) {
   return steps;
 }
 
-TEST(KeyframesOf, ComesAfterEachWay) {
-  const std::vector<Keyframe> keyframes = keyframes_of(straight_steps(11), {.way_m = 0.55});
-  ASSERT_EQ(keyframes.size(), 4U);
-  for (std::size_t k = 0; k < keyframes.size(); ++k) {
-    EXPECT_EQ(keyframes[k].step, 3 * k);
-    EXPECT_NEAR(keyframes[k].way_m, k == 0 ? 0.0 : 0.6, 1e-12);
-    EXPECT_NEAR(keyframes[k].time_s, 0.3 * static_cast<double>(k), 1e-12);
-  }
-}
-
-TEST(KeyframesOf, ComesAfterEachTurnOnTheSpotToo) {
-  std::vector<RunStep> steps = straight_steps(1);
-  for (int i = 1; i < 9; ++i) {
-    steps.push_back({.scan = steps[0].scan, .odom_from_robot = Se2::from_xy_yaw(0, 0, 0.3 * i)});
-  }
-  EXPECT_EQ(keyframes_of(steps, {.turn_rad = 0.5}).size(), 5U);
-  EXPECT_TRUE(keyframes_of({}, {}).empty());
-}
-
 TEST(SubmapAround, PutsTheScanFirstAndThenGoesOutwardsInTime) {
   const std::vector<RunStep> steps = straight_steps(41);
   const RecentScansParams params{.max_scans = 3, .spacing_m = 0.55};
@@ -98,7 +79,7 @@ TEST(RegisterAt, KeepsWhatWasFound) {
 }
 
 TEST(KeyframeParams, RefusesAWayOfNone) {
-  EXPECT_THROW(keyframes_of({}, {.way_m = 0.0}), std::invalid_argument);
+  EXPECT_THROW(validate(KeyframeParams{.way_m = 0.0}), std::invalid_argument);
 }
 
 }  // namespace

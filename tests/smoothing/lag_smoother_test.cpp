@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <stdexcept>
 
@@ -159,27 +160,77 @@ class FindsTruth : public WarpPredictor {
   }
 };
 
-/// The lagged poses of a filter that is 5 m beside the truth until 12 m, and right from then on.
+/// A filter that is 5 m beside the truth until 12 m, and right from then on.
+template <typename Told>
+void tell_of_filter_that_comes_back(LagSmoother& smoother, const Told& told) {
+  for (int i = 0; i < 150; ++i) {
+    const double x_m = 0.2 * i;
+    const bool is_right = x_m >= 12.0;
+    smoother.add(step_at(x_m, 0.1 * i),
+                 std::vector{belief(x_m, is_right ? 0.0 : 5.0, is_right ? 0.9 : 0.5)});
+    while (smoother.work()) {
+    }
+    told();
+  }
+}
+
 std::vector<LaggedPose> lagged_where_the_filter_comes_back(double lag_m) {
   FindsTruth predictor;
   LagSmootherParams params;
   params.lag.lag_m = lag_m;
   LagSmoother smoother(parts(predictor), params, std::nullopt);
   std::vector<LaggedPose> all;
-  for (int i = 0; i < 150; ++i) {
-    const double x_m = 0.2 * i;
-    const bool is_right = x_m >= 12.0;
-    smoother.add(step_at(x_m, 0.1 * i),
-                 std::vector{belief(x_m, is_right ? 0.0 : 5.0, is_right ? 0.9 : 0.5)});
-    for (const LaggedPose& pose : take_all(smoother)) {
+  const auto take = [&] {
+    for (const LaggedPose& pose : smoother.take()) {
       all.push_back(pose);
     }
-  }
+  };
+  tell_of_filter_that_comes_back(smoother, take);
   smoother.finish();
-  for (const LaggedPose& pose : smoother.take()) {
-    all.push_back(pose);
-  }
+  take();
   return all;
+}
+
+/// From where on a hypothesis is right, of a run that is smoothed as a whole.
+double known_from_m(double back_m, double back_on_log_odds) {
+  FindsTruth predictor;
+  LagSmootherParams params;
+  params.lag.back_m = back_m;
+  params.lag.back_on_log_odds = back_on_log_odds;
+  params.lag.lag_m = std::numeric_limits<double>::max();
+  LagSmoother smoother(parts(predictor), params, std::nullopt);
+  tell_of_filter_that_comes_back(smoother, [] {});
+  EXPECT_TRUE(smoother.take().empty());
+  for (const Keyframe& keyframe : smoother.known().keyframes) {
+    for (const PoseHypothesis& one : keyframe.hypotheses) {
+      if (std::abs(one.sketch_from_robot.y()) < 0.5) {
+        return keyframe.odom_from_robot.x_m();
+      }
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+TEST(LagSmoother, GoesBackSoFarAndOnWhereTheFilterKnewLess) {
+  // The log odds of 0.9 are 2.2, of 0.5 they are 0. The first filter that is right begins at 12 m;
+  // keyframes are 0.6 m apart, and the one where it has gone more than 3 m is its last.
+  EXPECT_NEAR(known_from_m(3.0, 2.3), 8.4, 1e-6);
+  EXPECT_LT(known_from_m(3.0, 2.1), 1.0);
+}
+
+TEST(LagSmoother, KnowsTheWholeRunWhereTheLagIsBeyondIt) {
+  FindsTruth predictor;
+  LagSmootherParams params;
+  params.lag.lag_m = std::numeric_limits<double>::max();
+  const Sim2 start = Sim2::from_xy_yaw_scale(0.0, 0.0, 0.0, 1.0);
+  LagSmoother smoother(parts(predictor), params, start);
+  tell_of_filter_that_comes_back(smoother, [] {});
+  const KeyframeRun known = smoother.known();
+  ASSERT_EQ(known.keyframes.size(), 50U);  // 29.8 m, one each 0.6 m
+  EXPECT_EQ(known.keyframes.back().step, 147U);
+  EXPECT_GE(known.keyframes.back().hypotheses.size(), 2U);  // nothing comes after: it is looked at
+  ASSERT_TRUE(known.start_sketch_from_robot.has_value());
+  EXPECT_THAT(*known.start_sketch_from_robot, IsNear(start, 1e-12));
 }
 
 TEST(LagSmoother, GoesBackFromWhatIsKnownAtTheEndOfTheLag) {
@@ -235,6 +286,12 @@ TEST(LagParams, RefusesNoLag) {
   LagSmootherParams params;
   params.lag.lag_m = 0.0;
   EXPECT_THROW(LagSmoother(parts(predictor), params, std::nullopt), std::invalid_argument);
+  params.lag = {};
+  params.lag.back_m = 0.0;
+  EXPECT_THROW(validate(params), std::invalid_argument);
+  params.lag = {};
+  params.lag.back_on_log_odds = 0.0;
+  EXPECT_THROW(validate(params), std::invalid_argument);
 }
 
 TEST(HypothesisOf, TakesTheCovarianceToTheRobotFrameAndBack) {
