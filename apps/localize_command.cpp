@@ -21,6 +21,7 @@
 #include "apps/progress.hpp"
 #include "apps/read_options.hpp"
 #include "apps/result_files.hpp"
+#include "apps/smooth_run.hpp"
 #include "apps/start_pose.hpp"
 #include "apps/version.hpp"
 #include "datasets/io/reference_io.hpp"
@@ -153,8 +154,8 @@ void localize_into(RunRecord& record, const LocalizeOptions& options,
     return;
   }
   if (!record.filtered.empty()) {
-    record.spline =
-        fit_drawing_spline(record.keyframes, smoothed_poses(record), of_method.smoothing.spline);
+    record.spline = spline_or_warning(record.keyframes, smoothed_poses(record),
+                                      of_method.smoothing.spline, options.log);
   } else {
     spdlog::warn("{}: nothing could be registered, so that the run is not smoothed",
                  options.log.string());

@@ -1,6 +1,7 @@
 #include "apps/smooth_run.hpp"
 
 #include <spdlog/fmt/fmt.h>
+#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <iostream>
@@ -50,7 +51,7 @@ void smooth_run(const SmoothOptions& options, const SmoothParams& params) {
   const std::vector<StepReport> reports = reports_of(run, smoothed);
   write_tum(out / "trajectory.tum", trajectory_of(reports));
   write_atomically(out / "trajectory.csv", step_table_csv(reports));
-  if (const auto spline = fit_drawing_spline(run, smoothed.poses, params.spline)) {
+  if (const auto spline = spline_or_warning(run, smoothed.poses, params.spline, options.run)) {
     write_atomically(out / "spline.json", to_json(*spline, run));
   }
   write_atomically(out / "run.yaml", run_file_text({.command = "smooth",
@@ -60,6 +61,20 @@ void smooth_run(const SmoothOptions& options, const SmoothParams& params) {
   out.commit();
   std::cout << fmt::format("{} keyframes, {:.3f} s\n", run.keyframes.size(), seconds)
             << "trajectory: " << (out.target() / "trajectory.csv").string() << "\n";
+}
+
+std::optional<DrawingSpline> spline_or_warning(const KeyframeRun& run,
+                                               std::span<const SmoothedPose> smoothed,
+                                               const DrawingSplineParams& params,
+                                               const std::filesystem::path& of_run) {
+  auto spline = fit_drawing_spline(run, smoothed, params);
+  if (!spline) {
+    spdlog::warn(
+        "{}: no spline.json: the way is shorter than the {} m between control points "
+        "(spline.spacing_m), or the smoothed poses fit no map that does not fold",
+        of_run.string(), params.spacing_m);
+  }
+  return spline;
 }
 
 }  // namespace sketchloc

@@ -1,5 +1,6 @@
 #include "eval/navigation_picture.hpp"
 
+#include <algorithm>
 #include <opencv2/imgproc.hpp>
 
 #include "eval/detail/canvas.hpp"
@@ -48,7 +49,11 @@ Frame frame_of(const Grid<std::uint8_t>& occupied) {
 void mark(cv::Mat3b& image, const cv::Point2d& at, const std::string& name) {
   cv::circle(image, detail::sub_pixel(at), cvRound(std::ldexp(6.0, detail::kShift)),
              detail::bgr(detail::kReferenceBlue), 3, cv::LINE_AA, detail::kShift);
-  detail::write_text(image, name, cv::Point(cvRound(at.x) + 10, cvRound(at.y) - 8), 0.55);
+  constexpr double kScale = 0.55;
+  const cv::Size size = cv::getTextSize(name, cv::FONT_HERSHEY_SIMPLEX, kScale, 1, nullptr);
+  const cv::Point text(std::clamp(cvRound(at.x) + 10, 0, std::max(0, image.cols - size.width - 4)),
+                       std::max(cvRound(at.y) - 8, size.height + 4));
+  detail::write_text(image, name, text, kScale);
 }
 
 }  // namespace

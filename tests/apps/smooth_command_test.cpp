@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "datasets/io/g2o_io.hpp"
+#include "eval/keyframe_io.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/shared_data.hpp"
 
@@ -107,6 +108,19 @@ TEST_F(SmoothEndToEnd, NeverReplacesAResultUnasked) {
   ASSERT_EQ(smooth(kSquare).exit_code, 0);
   EXPECT_EQ(smooth(kSquare).exit_code, 2);
   EXPECT_EQ(smooth(kSquare, {"--force"}).exit_code, 0);
+}
+
+TEST_F(SmoothEndToEnd, SaysThatAShortRunHasNoSpline) {
+  Keyframe alone;
+  alone.hypotheses.emplace_back();
+  const KeyframeRun run{.keyframes = {alone}};
+  std::ofstream(folder_ / "keyframes.jsonl") << to_jsonl(run);
+  const CommandResult result =
+      testing::run_command({SKETCHLOC_PROGRAM, "smooth", folder_ / ".", "--out", folder_ / "out"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("no spline.json: the way is shorter than the 2 m"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "out/trajectory.csv"));
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "out/spline.json"));
 }
 
 TEST_F(SmoothEndToEnd, SaysWhatIsWrongAndLeavesNothing) {
